@@ -179,8 +179,13 @@ class ByLaw {
     if (search_.accounts.empty() || !search_.accounts.front().scored) return;
     out_.form->gain = gain_by_law(setting_, search_, options_.bootstrap, seed_);
     if (out_.verdict != Verdict::named && out_.verdict != Verdict::ambiguous) return;
-    if (out_.form->gain.low > 0.0) return;
     const std::vector<int>& members = search_.accounts.front().members;
+    // What is wrong with channels shows in every mode alike, and the class of gains learns it from any of them: a mode left out
+    // cannot tell.
+    const bool of_channels = std::all_of(members.begin(), members.end(), [&](int m) {
+      return is_of_a_channel(*search_.entries[static_cast<std::size_t>(m)].candidate);
+    });
+    if (out_.form->gain.low > 0.0 || of_channels) return;
     const bool in_all = std::all_of(members.begin(), members.end(),
                                     [&](int m) { return search_.entries[static_cast<std::size_t>(m)].contrast < 0; });
     out_.verdict = in_all ? Verdict::none : Verdict::unknown;

@@ -1,5 +1,8 @@
 #include "diagnosis/law_frame.hpp"
 
+#include <cmath>
+#include <set>
+
 #include "core/error.hpp"
 #include "linalg/dense.hpp"
 
@@ -35,12 +38,28 @@ MatrixXd no_more_than_rows(MatrixXd columns) {
   return svd.u * svd.values.asDiagonal();
 }
 
-/// Weight of each training row in a contrast.
-VectorXd weight_of_rows(const Contrast& contrast, const FeatureSet& features, const std::vector<int>& rows) {
-  VectorXd out(std::ssize(rows));
-  for (Index r = 0; r < out.size(); ++r)
-    out[r] = contrast.weight[features.rows[static_cast<std::size_t>(rows[static_cast<std::size_t>(r)])].condition];
-  return out;
+/// A change that starts where the contrast is nil and has independent increments along it, a Wiener process: smooth changes are
+/// among them, and those that turn. One block of columns for each increment; what all conditions share is the form error's.
+MatrixXd changes_along(const Contrast& contrast, const MatrixXd& errors, const FeatureSet& features,
+                       const std::vector<int>& rows) {
+  VectorXd weight(std::ssize(rows));
+  for (Index r = 0; r < weight.size(); ++r)
+    weight[r] = contrast.weight[features.rows[static_cast<std::size_t>(rows[static_cast<std::size_t>(r)])].condition];
+  const double from = weight.minCoeff() > 0.0 ? weight.minCoeff() : 0.0;
+  std::vector<MatrixXd> blocks;
+  for (const double side : {1.0, -1.0}) {
+    const std::set<double> reached(weight.begin(), weight.end());
+    std::set<double> levels;
+    for (const double w : reached)
+      if (side * w > from) levels.insert(side * w);
+    double before = from;
+    for (const double level : levels) {
+      const VectorXd beyond = ((side * weight).array() >= level).cast<double>();
+      blocks.emplace_back(std::sqrt(level - before) * (beyond.asDiagonal() * errors));
+      before = level;
+    }
+  }
+  return no_more_than_rows(beside(blocks, weight.size()));
 }
 
 }  // namespace
@@ -49,10 +68,10 @@ LawSystem law_system(const Inference& plain, const Fit& fit, const std::vector<C
   TWINDECK_ASSERT(fit.made() && tested <= fit.causes.size());
   const FeatureMap& map = plain.map();
   const std::vector<int>& rows = plain.training();
-  const auto n = static_cast<Index>(map.nuisances().size());
   const MatrixXd& j = fit.map.jacobian;
   Index asked = 0;
   for (std::size_t c = fit.causes.size() - tested; c < fit.causes.size(); ++c) asked += fit.causes[c].a.size();
+  const auto n = static_cast<Index>(map.nuisances().size());
   std::vector<int> known, gains;
   for (Index k = 0; k < n; ++k)
     (map.nuisances()[static_cast<std::size_t>(k)].kind == Nuisance::Kind::gain ? gains : known).push_back(static_cast<int>(k));
@@ -74,8 +93,7 @@ LawSystem law_system(const Inference& plain, const Fit& fit, const std::vector<C
   out.classes = {kUnit * form.frequency(rows, Eigen::all), no_more_than_rows(kUnit * form.shape(rows, Eigen::all)),
                  no_more_than_rows(kUnit * form.kinks(rows, Eigen::all)), std::move(gain)};
   const MatrixXd all = beside({out.classes[kFrequencies], out.classes[kShapes], out.classes[kKinks]}, std::ssize(rows));
-  for (const Contrast& contrast : contrasts)
-    out.classes.push_back(no_more_than_rows(weight_of_rows(contrast, map.features(), rows).asDiagonal() * all));
+  for (const Contrast& contrast : contrasts) out.classes.push_back(changes_along(contrast, all, map.features(), rows));
   VectorXd x = fit.map.x;
   x.tail(asked).setZero();
   out.residual = map.values()(rows) - fit.map.g + j * x;

@@ -20,13 +20,14 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-constexpr double kLeftPart = 0.1;           // of a cause's effect: scale of what it leaves over in its contrast …
-constexpr double kLeastLeft = 0.1;          // … in units of the class, at least
-constexpr double kPerCent = 100.0;          // units of a class in a relative effect
-const double kShrinks[] = {0.0, 1.5, 3.0};  // of ln tau: a large cause leaves smaller errors than nothing does
-constexpr double kShows = 1e-3;             // deviations: below, these rows show nothing of an entry
-constexpr double kKeptMagnitudes = 10.0;    // nats of the best: farther ones add nothing
-constexpr double kOneFit = 0.01;            // prior deviations: nearer fits are one
+const double kOddsOfAChange = std::log(0.1);  // of all causes of a contrast against nothing, of "something else", of channels
+constexpr double kLeftPart = 0.1;             // of a cause's effect: scale of what it leaves over in its contrast …
+constexpr double kLeastLeft = 0.1;            // … in units of the class, at least
+constexpr double kPerCent = 100.0;            // units of a class in a relative effect
+const double kShrinks[] = {0.0, 1.5, 3.0};    // of ln tau: a large cause leaves smaller errors than nothing does
+constexpr double kShows = 1e-3;               // deviations: below, these rows show nothing of an entry
+constexpr double kKeptMagnitudes = 10.0;      // nats of the best: farther ones add nothing
+constexpr double kOneFit = 0.01;              // prior deviations: nearer fits are one
 constexpr std::size_t kLeading = 6, kMostLeading = 10, kOfFewPlaces = 6;
 constexpr int kLeadingRounds = 4;
 constexpr double kNear = 8.0, kNearFamily = 12.0;         // nats of the best: worth a fit of their own …
@@ -64,9 +65,6 @@ std::vector<bool> acting_conditions(const LawSetting& setting, const Candidate& 
 /// Scale of what a cause leaves over, in units of its contrast's class.
 double left_scale(double effect) { return std::max(kLeastLeft, kLeftPart * kPerCent * effect); }
 
-/// A fault of channels shows in all modes and is like no error of the form. A wrong label of a mode looks like one.
-bool is_of_a_channel(const Candidate& candidate) { return candidate.hypothesis->measurement && !candidate.channels.empty(); }
-
 /// Fills entries and the signatures of the base's system.
 void collect_entries(const LawSetting& setting, LawSearch& search) {
   const auto& candidates = setting.plain.candidates();
@@ -96,7 +94,7 @@ void collect_entries(const LawSetting& setting, LawSearch& search) {
   for (LawEntry& entry : search.entries) {
     const bool everywhere = entry.contrast < 0 && !is_of_a_channel(*entry.candidate);
     entry.log_prior =
-        entry.candidate->log_prior - std::log(share.at(class_of(entry))) + (everywhere ? setting.static_odds : 0.0);
+        entry.candidate->log_prior - std::log(share.at(class_of(entry))) + (everywhere ? setting.static_odds : kOddsOfAChange);
   }
   search.system.signatures.resize(std::ssize(setting.plain.training()), std::ssize(columns));
   for (std::size_t k = 0; k < columns.size(); ++k) search.system.signatures.col(static_cast<Index>(k)) = columns[k];
@@ -135,7 +133,7 @@ class Screen {
       value[c] = law_.log_posterior(other, search_.something_else[c].tau);
     });
     for (std::size_t c = 0; c < value.size(); ++c) {
-      search_.else_weight.push_back(search_.something_else[c].log_evidence);
+      search_.else_weight.push_back(search_.something_else[c].log_evidence + kOddsOfAChange);
       add_point(search_.something_else[c], value[c], static_cast<int>(c));
     }
   }
@@ -287,9 +285,9 @@ void score_at_base(const OneLaw& law, const LawSearch& search, LawAccount& accou
   account.scored = true;
 }
 
-/// A set with its causes in the model, fitted from the base and from the prior mean; the larger evidence counts.
-void refine_by_law(const LawSetting& setting, const LawSearch& search, LawAccount& account) {
-  const auto n = static_cast<Index>(setting.plain.map().nuisances().size());
+/// A set with its causes in the model, fitted from each start; the largest evidence counts.
+void refine_by_law(const LawSetting& setting, const LawSearch& search, LawAccount& account,
+                   const std::vector<VectorXd>& starts) {
   std::vector<Cause> start = search.base.causes;
   start.insert(start.end(), account.causes.begin(), account.causes.end());
   const VectorXd tau = account.evidence.tau;
@@ -300,7 +298,7 @@ void refine_by_law(const LawSetting& setting, const LawSearch& search, LawAccoun
     for (std::size_t c = 0; c < acts.size(); ++c) acts[c] = acts[c] || own[c];
   }
   VectorXd found_before;
-  for (const VectorXd& x : {VectorXd(search.base.map.x.head(n)), VectorXd()}) {
+  for (const VectorXd& x : starts) {
     Fit with = setting.informed.fit(start, x);
     if (!with.made()) continue;
     if (found_before.size() > 0 && (with.map.x - found_before).norm() < kOneFit) continue;
@@ -351,6 +349,18 @@ VectorXd start_of_set(const LawSearch& search, const LawAccount& set) {
   return out;
 }
 
+/// A better optimiser must not look like a further cause: what the leading set's parameters do for each of its causes alone.
+void fit_alone_from_sets(const LawSetting& setting, LawSearch& search) {
+  sort_accounts(search.accounts);
+  const LawAccount leader = search.accounts.front();
+  if (leader.members.size() < 2 || !leader.refined()) return;
+  const VectorXd x = leader.with.map.x.head(static_cast<Index>(setting.plain.map().nuisances().size()));
+  for (LawAccount& account : search.accounts)
+    if (account.members.size() < leader.members.size() && account.refined() &&
+        std::includes(leader.members.begin(), leader.members.end(), account.members.begin(), account.members.end()))
+      refine_by_law(setting, search, account, {x});
+}
+
 /// Accounts that are worth a fit of their own: the best and the best of each family.
 std::vector<LawAccount*> leading_accounts(LawSearch& search, const std::set<int>& done) {
   const double best = search.accounts.front().log_weight, over = std::max(0.0, best - search.none.log_evidence);
@@ -385,6 +395,9 @@ std::vector<LawAccount*> leading_accounts(LawSearch& search, const std::set<int>
 
 }  // namespace
 
+// A wrong label of a mode looks like an error of the form.
+bool is_of_a_channel(const Candidate& candidate) { return candidate.hypothesis->measurement && !candidate.channels.empty(); }
+
 std::vector<ActiveClass> lasting_classes(const LawSystem& system) {
   std::vector<ActiveClass> out;
   for (int c = 0; c < kFirstContrast; ++c)
@@ -405,13 +418,15 @@ LawSearch search_by_law(const LawSetting& setting, const Fit& base) {
   screen.weigh_entries();
   sort_accounts(out.accounts);
   if (out.accounts.empty() || out.accounts.front().log_weight < out.none.log_evidence + kFarBelow) return out;
+  const auto n = static_cast<Index>(setting.plain.map().nuisances().size());
+  const std::vector<VectorXd> starts = {out.base.map.x.head(n), {}};
   std::set<int> done;
   for (int round = 0; round < kLeadingRounds && !done.contains(out.accounts.front().members.front()); ++round) {
     const std::vector<LawAccount*> these = leading_accounts(out, done);
     if (these.empty()) break;
     parallel_for(these.size(), [&](std::size_t i) {
       score_at_base(law, out, *these[i]);
-      if (these[i]->scored) refine_by_law(setting, out, *these[i]);
+      if (these[i]->scored) refine_by_law(setting, out, *these[i], starts);
     });
     for (const LawAccount* account : these) done.insert(account->members.front());
     sort_accounts(out.accounts);
@@ -422,10 +437,11 @@ LawSearch search_by_law(const LawSetting& setting, const Fit& base) {
       [&](LawAccount& account) {
         account.evidence.tau = start_of_set(out, account);
         score_at_base(law, out, account);
-        if (account.scored) refine_by_law(setting, out, account);
+        if (account.scored) refine_by_law(setting, out, account, starts);
       },
       sets);
   for (LawAccount& account : sets) out.accounts.push_back(std::move(account));
+  fit_alone_from_sets(setting, out);
   sort_accounts(out.accounts);
   return out;
 }

@@ -58,6 +58,9 @@ struct LawSearch {
 
 [[nodiscard]] LawSearch search_by_law(const LawSetting& setting, const Fit& base);
 
+/// Whether something is wrong with a channel, so that it shows in all modes.
+[[nodiscard]] bool is_of_a_channel(const Candidate& candidate);
+
 /// Classes that are active in a system whichever causes act: those that have columns, without the contrasts.
 [[nodiscard]] std::vector<ActiveClass> lasting_classes(const LawSystem& system);
 
