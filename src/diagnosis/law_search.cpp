@@ -30,6 +30,7 @@ constexpr double kKeptMagnitudes = 10.0;      // nats of the best: farther ones 
 constexpr double kOneFit = 0.01;              // prior deviations: nearer fits are one
 constexpr std::size_t kLeading = 6, kMostLeading = 10, kOfFewPlaces = 6;
 constexpr int kLeadingRounds = 4;
+constexpr std::size_t kTriedBeside = 3;                   // entries that are tried beside the leading account
 constexpr double kNear = 8.0, kNearFamily = 12.0;         // nats of the best: worth a fit of their own …
 constexpr double kNearShare = 0.1, kFamilyShareOf = 0.3;  // … or this much of what it has over nothing
 constexpr double kFarBelow = -8.0;  // nats against nothing: where the best entry is below, no fit brings it to five per cent
@@ -308,7 +309,7 @@ void refine_by_law(const LawSetting& setting, const LawSearch& search, LawAccoun
     const OneLaw law(*system);
     if (!law.sound()) continue;
     const Prediction without = setting.plain.map().predict(with.base, search.base.causes, false);
-    const double effect = without.valid ? effect_on(setting.plain, with.all.g - without.g, acts) : account.effect;
+    const double effect = without.valid ? effect_on(setting.plain, change_between(without, with.all), acts) : account.effect;
     LawHypothesis hypothesis{system->residual,
                              VectorXd::Zero(1),
                              system->signatures,
@@ -355,10 +356,73 @@ void fit_alone_from_sets(const LawSetting& setting, LawSearch& search) {
   const LawAccount leader = search.accounts.front();
   if (leader.members.size() < 2 || !leader.refined()) return;
   const VectorXd x = leader.with.map.x.head(static_cast<Index>(setting.plain.map().nuisances().size()));
+  const auto is_of_leader = [&](int m) {
+    return std::find(leader.members.begin(), leader.members.end(), m) != leader.members.end();
+  };
   for (LawAccount& account : search.accounts)
     if (account.members.size() < leader.members.size() && account.refined() &&
-        std::includes(leader.members.begin(), leader.members.end(), account.members.begin(), account.members.end()))
+        std::all_of(account.members.begin(), account.members.end(), is_of_leader))
       refine_by_law(setting, search, account, {x});
+}
+
+/// Entries that promise most at the fit with the leading account in the model, each beside it.
+std::vector<LawAccount> sets_beside(const LawSetting& setting, const LawSearch& search, const LawAccount& leader) {
+  LawSearch beside;
+  beside.base = leader.with;
+  beside.system = law_system(setting.plain, beside.base, setting.contrasts);
+  collect_entries(setting, beside);
+  const OneLaw law(beside.system);
+  std::vector<LawAccount> out;
+  if (!can_be_weighed(beside.system) || !law.sound()) return out;
+  Screen screen(setting, beside, law);
+  screen.weigh_nothing();
+  screen.weigh_entries();
+  sort_accounts(beside.accounts);
+  for (const LawAccount& found : beside.accounts) {
+    if (out.size() == kTriedBeside || found.log_weight < beside.none.log_evidence + kFarBelow) break;
+    const Candidate* candidate = beside.entries[static_cast<std::size_t>(found.members.front())].candidate;
+    const auto entry =
+        std::find_if(search.entries.begin(), search.entries.end(), [&](const LawEntry& e) { return e.candidate == candidate; });
+    const auto position = static_cast<int>(entry - search.entries.begin());
+    if (entry == search.entries.end() ||
+        std::find(leader.members.begin(), leader.members.end(), position) != leader.members.end())
+      continue;
+    LawAccount set;
+    set.members = leader.members;
+    set.members.push_back(position);
+    set.log_prior = leader.log_prior + entry->log_prior;
+    set.evidence.tau = leader.evidence.tau;
+    set.causes = leader.causes;
+    set.causes.push_back(found.causes.front());
+    out.push_back(std::move(set));
+  }
+  return out;
+}
+
+/// Further causes beside the leading account, looked for with it in the model: one that is large hides the others from the
+/// base, where modes may be none of the model's for its sake.
+void look_beside_leader(const LawSetting& setting, LawSearch& search) {
+  for (std::size_t size = 1; size < kMostInASet; ++size) {
+    const auto best = std::find_if(search.accounts.begin(), search.accounts.end(),
+                                   [&](const LawAccount& a) { return a.members.size() == size && a.refined(); });
+    if (best == search.accounts.end() || (size > 1 && best != search.accounts.begin())) return;
+    const LawAccount leader = *best;
+    std::vector<LawAccount> sets = sets_beside(setting, search, leader);
+    const VectorXd x = leader.with.map.x.head(static_cast<Index>(setting.plain.map().nuisances().size()));
+    parallel_for(sets.size(), [&](std::size_t i) { refine_by_law(setting, search, sets[i], {x}); });
+    for (LawAccount& set : sets) {
+      set.scored = set.refined();
+      const auto same = std::find_if(search.accounts.begin(), search.accounts.end(), [&](const LawAccount& a) {
+        return std::is_permutation(a.members.begin(), a.members.end(), set.members.begin(), set.members.end());
+      });
+      if (same == search.accounts.end())
+        search.accounts.push_back(std::move(set));
+      else if (set.log_weight > same->log_weight)
+        *same = std::move(set);
+    }
+    std::erase_if(search.accounts, [](const LawAccount& a) { return a.members.size() > 1 && !a.scored; });
+    sort_accounts(search.accounts);
+  }
 }
 
 /// Accounts that are worth a fit of their own: the best and the best of each family.
@@ -441,6 +505,8 @@ LawSearch search_by_law(const LawSetting& setting, const Fit& base) {
       },
       sets);
   for (LawAccount& account : sets) out.accounts.push_back(std::move(account));
+  sort_accounts(out.accounts);
+  look_beside_leader(setting, out);
   fit_alone_from_sets(setting, out);
   sort_accounts(out.accounts);
   return out;

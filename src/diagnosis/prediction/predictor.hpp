@@ -159,6 +159,8 @@ class Predictor {
   [[nodiscard]] int mode_of_shape(const MeasuredMode& measured, std::size_t position) const;
   struct ScaledShape;
   [[nodiscard]] ScaledShape scaled_shape(const MeasuredMode& measured, const SolvedState& state, Eigen::Index mode);
+  /// Rows of a measured shape that is none of the model's.
+  void leave_shape_open(const MeasuredMode& measured);
   void predict_shape(const MeasuredMode& measured, SolvedState& state, Eigen::Index mode);
   void differentiate_shape(const MeasuredMode& measured, SolvedState& state, Eigen::Index mode, const ScaledShape& shape);
 
