@@ -14,10 +14,10 @@ struct FormLevel {
 [[nodiscard]] FeatureMap with_form_error(const FeatureMap& plain, const FeatureMap::Base& base,
                                          const Eigen::VectorXd& predicted, const FormLevel& level);
 
-/// The least of three form errors that fits can stand. Where the model is grossly off in its plainest conditions (chi² above ten times
-/// the degrees of freedom) they stand the least level at which chi² is at most twice the degrees of freedom, else the largest:
-/// a fit that stands less than the model is off by bends all parameters towards shapes that no model of its kind has. Reference
-/// for that rule, the discrepancy principle: Morozov (1966), Soviet Mathematics 7, 414-417.
+/// The least of three form errors that fits can stand. Where the model is grossly off in its plainest conditions (chi² above
+/// ten times the degrees of freedom) they stand the least level at which chi² is at most twice the degrees of freedom, else the
+/// largest: a fit that stands less than the model is off by bends all parameters towards shapes that no model of its kind has.
+/// Reference for that rule, the discrepancy principle: Morozov (1966), Soviet Mathematics 7, 414-417.
 /// @param prior, predicted  the model as it stands, its rows
 [[nodiscard]] FormLevel level_of_fits(const Inference& whole, const FeatureMap::Base& prior, const Eigen::VectorXd& predicted);
 

@@ -59,9 +59,11 @@ std::pair<VectorXd, double> open_modes(const FeatureMap& map, const Prediction& 
 MatrixXd columns_of(const MatrixXd& covariance) {
   const Eigen::LDLT<MatrixXd> factor(covariance);
   const VectorXd d = factor.vectorD();
-  const Index rank = (d.array() > kNoVariance * d.maxCoeff()).count();  // pivots descend
+  std::vector<int> kept;
+  for (Index k = 0; k < d.size(); ++k)
+    if (d[k] > kNoVariance * d.maxCoeff()) kept.push_back(static_cast<int>(k));
   const MatrixXd lower = factor.matrixL();
-  return factor.transpositionsP().transpose() * MatrixXd(lower.leftCols(rank) * d.head(rank).cwiseSqrt().asDiagonal());
+  return factor.transpositionsP().transpose() * MatrixXd(lower(Eigen::all, kept) * d(kept).cwiseSqrt().asDiagonal());
 }
 
 MatrixXd covariance_of(const MatrixXd& columns) { return linalg::product(columns, columns.transpose()); }

@@ -24,6 +24,7 @@ struct LawSetting {
 struct LawEntry {
   const Candidate* candidate = nullptr;
   int contrast = -1;                    ///< in which it acts; -1: in all conditions alike
+  std::vector<int> contrasts;           ///< all in which it acts, that one first
   double log_prior = 0.0;               ///< ln prior odds against nothing
   std::vector<Inference::Tried> tried;  ///< magnitudes
   std::vector<double> effects;          ///< of each, RMS change of ln f where the entry acts

@@ -18,7 +18,7 @@ using Eigen::VectorXd;
 constexpr double kRidge = 0.3;        // of H in a step: a class that the data do not show moves slowly
 constexpr double kLongestStep = 1.5;  // of ln tau
 constexpr int kIterations = 25, kHalvings = 5;
-constexpr double kSettled = 1e-3;  // nats that a further step promises: less decides nothing
+constexpr double kSettled = 0.02;  // nats that a further step promises: less decides nothing
 
 double log_of_sum(const VectorXd& v, VectorXd& weight) {
   const double top = v.maxCoeff();

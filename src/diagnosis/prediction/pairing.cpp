@@ -121,6 +121,26 @@ VectorXd Predictor::unlike_bound(int position, const SolvedState& state) const {
   return 1.0 - along.cwiseQuotient(norm * own).cwiseMin(1.0).array();
 }
 
+VectorXd Predictor::far_from_measured(const MeasuredMode& measured, const SolvedState& state, double width) const {
+  const Index n = state.modes.s.size();
+  VectorXd steps = VectorXd::Zero(n);
+  if (measured.frequency >= 0)
+    for (Index j = 0; j < n; ++j) {
+      const double f = state.modes.frequency_Hz(j);
+      if (!(f > 0.0)) continue;
+      const double distance = std::abs(std::log(f / measured.frequency_Hz)) / width;
+      steps[j] += std::min(distance, kFarSteps) + kFarther * distance + kUncrossed * distance * distance;
+    }
+  // What dampers add tells close modes apart where no shape was measured; a factor e is what structural damping leaves open.
+  if (measured.damping < 0 || !state.state.damped()) return steps;
+  const double own = structural_damping(map_.damping_name(measured.label, measured.condition));
+  for (Index j = 0; j < n; ++j) {
+    const double total = std::max(own + 100.0 * state.modes.damping(j), kLeastDamping * own);
+    steps[j] += std::min(std::abs(std::log(total) - map_.values_[measured.damping]), kFarDamping);
+  }
+  return steps;
+}
+
 void Predictor::pair(const std::vector<int>& conditions) {
   SolvedState& state = solved(conditions.front());
   const Index n = state.modes.s.size();
@@ -140,23 +160,8 @@ void Predictor::pair(const std::vector<int>& conditions) {
     open += measured.real_rows.size() >= 2 ? kNoCounterpart : kNever;
     if (std::find(labels.begin(), labels.end(), measured.label) == labels.end()) labels.push_back(measured.label);
     const bool first = map_.features().conditions[static_cast<std::size_t>(measured.condition)].state == map_.states_.front();
-    const double width = first ? kFrequencyWidth : kChangedWidth;
-    if (measured.frequency >= 0)
-      for (Index j = 0; j < n; ++j) {
-        const double f = state.modes.frequency_Hz(j);
-        if (!(f > 0.0)) continue;
-        const double distance = std::abs(std::log(f / measured.frequency_Hz)) / width;
-        sum[j] += std::min(distance, kFarSteps) + kFarther * distance + kUncrossed * distance * distance;
-      }
-    // What dampers add tells close modes apart where no shape was measured; a factor e is what structural damping leaves open.
-    if (measured.damping >= 0 && state.state.damped()) {
-      open += 0.5 * kFarDamping;
-      const double own = structural_damping(map_.damping_name(measured.label, measured.condition));
-      for (Index j = 0; j < n; ++j) {
-        const double total = std::max(own + 100.0 * state.modes.damping(j), kLeastDamping * own);
-        sum[j] += std::min(std::abs(std::log(total) - map_.values_[measured.damping]), kFarDamping);
-      }
-    }
+    sum += far_from_measured(measured, state, first ? kFrequencyWidth : kChangedWidth);
+    if (measured.damping >= 0 && state.state.damped()) open += 0.5 * kFarDamping;
     // Shapes are known from this condition, or from another in which the label was measured with one.
     const MeasuredMode& shaped = shaped_like(measured);
     // Names of modes that are bound to the model's are those of the first state.
