@@ -1,8 +1,5 @@
 #pragma once
 
-#include <string>
-#include <vector>
-
 #include "diagnosis/inference.hpp"
 
 namespace twindeck::diagnosis {
@@ -17,27 +14,12 @@ struct FormLevel {
 [[nodiscard]] FeatureMap with_form_error(const FeatureMap& plain, const FeatureMap::Base& base,
                                          const Eigen::VectorXd& predicted, const FormLevel& level);
 
-/// Measured modes that no mode of the model resembles.
-struct Strangers {
-  std::vector<std::string> labels;  ///< as in rows.csv
-  std::vector<int> rows;            ///< in all conditions
-  int shapes = 0;                   ///< likewise
-};
-
-/// What fits are made with.
-struct FitGround {
-  FeatureMap known;  ///< rows, those of strangers counting for nothing
-  Strangers strangers;
-  FormLevel level;  ///< form error that the fits stand
-};
-
-/// Strangers count for nothing: one such mode, a hybrid with a mode that the channels do not see, would outweigh all others.
-/// The fits stand the least of three levels. Where the model is grossly off in its plainest conditions (chi² above ten times
-/// the degrees of freedom) they stand the least level at which chi² is at most twice the degrees of freedom, else the largest:
-/// a fit that stands less than the model is off by bends all parameters towards shapes that no model of its kind has. Reference
-/// for that rule, the discrepancy principle: Morozov (1966), Soviet Mathematics 7, 414-417.
+/// The least of three form errors that fits can stand. Where the model is grossly off in its plainest conditions (chi² above
+/// ten times the degrees of freedom) they stand the least level at which chi² is at most twice the degrees of freedom, else the
+/// largest: a fit that stands less than the model is off by bends all parameters towards shapes that no model of its kind has.
+/// Reference for that rule, the discrepancy principle: Morozov (1966), Soviet Mathematics 7, 414-417.
 /// @param prior, predicted  the model as it stands, its rows
-[[nodiscard]] FitGround ground_of_fits(const Inference& whole, const FeatureMap::Base& prior, const Eigen::VectorXd& predicted);
+[[nodiscard]] FormLevel level_of_fits(const Inference& whole, const FeatureMap::Base& prior, const Eigen::VectorXd& predicted);
 
 /// The structure as its plainest conditions show it: the first state; where there is one state, the least amplitude, wind and
 /// number of people, no dampers, and the highest temperature, since bearings slip at large amplitudes and freeze in the cold.

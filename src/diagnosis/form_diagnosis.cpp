@@ -377,12 +377,10 @@ Diagnosis diagnose_with_form(const Inference& whole, const DiagnoseOptions& opti
   out.verdict = Verdict::unknown;
   out.message = "the model predicts none of these rows";
   if (!nominal.valid) return out;
-  const FitGround ground = ground_of_fits(whole, prior, nominal.g);
-  const Strangers& strangers = ground.strangers;
-  const Inference plain(ground.known, whole.candidates());
-  const FeatureMap informed_map = with_form_error(ground.known, prior, nominal.g, ground.level);
+  const Inference& plain = whole;
+  const FeatureMap informed_map = with_form_error(map, prior, nominal.g, level_of_fits(whole, prior, nominal.g));
   const Inference informed(informed_map, plain.candidates());
-  const int dof = plain.dof() - static_cast<int>(strangers.rows.size()) + strangers.shapes;  // each shape has a free scale
+  const int dof = plain.dof();  // each shape has a free scale
   const FormSetting setting{plain, informed, dof, contrasts_of(map.features()), scale_grid()};
   out.before = first_fit(informed);
   if (!out.before.made()) {
@@ -395,9 +393,6 @@ Diagnosis diagnose_with_form(const Inference& whole, const DiagnoseOptions& opti
   out.form->frequency = estimate(setting.grid.frequency, chain.winner().frequency);
   out.form->shape = estimate(setting.grid.shape, chain.winner().shape);
   add_warnings(*out.form, setting.grid);
-  if (!strangers.labels.empty())
-    out.form->warnings.push_back(fmt::format("no mode of the model resembles the measured mode {}: its rows count for nothing",
-                                             fmt::join(strangers.labels, ", ")));
   finish(plain, chain.causes(), chain.current(), chain.without_cause(), options, seed, out);
   Ruling ruling = chain.ruling();
   for (const Effect& effect : out.effects) object_to_size(effect, out.verdict, ruling);

@@ -122,13 +122,23 @@ int contrast_of_states(const Candidate& candidate, const std::vector<Contrast>& 
 
 }  // namespace
 
+std::vector<int> contrasts_of(const Candidate& candidate, const std::vector<Contrast>& contrasts) {
+  std::vector<int> out;
+  const auto add = [&](int contrast) {
+    if (contrast >= 0 && std::find(out.begin(), out.end(), contrast) == out.end()) out.push_back(contrast);
+  };
+  if (!candidate.state.empty()) add(contrast_of_states(candidate, contrasts));
+  if (candidate.state.empty())
+    for (const ActionSpec& action : candidate.hypothesis->actions)
+      for (const std::string& key : keys_of(action))
+        for (std::size_t c = 0; c < contrasts.size(); ++c)
+          if (contrasts[c].key == key) add(static_cast<int>(c));
+  return out;
+}
+
 int contrast_of(const Candidate& candidate, const std::vector<Contrast>& contrasts) {
-  if (!candidate.state.empty()) return contrast_of_states(candidate, contrasts);
-  for (const ActionSpec& action : candidate.hypothesis->actions)
-    for (const std::string& key : keys_of(action))
-      for (std::size_t c = 0; c < contrasts.size(); ++c)
-        if (contrasts[c].key == key) return static_cast<int>(c);
-  return -1;
+  const std::vector<int> all = contrasts_of(candidate, contrasts);
+  return all.empty() ? -1 : all.front();
 }
 
 FormSystem form_system(const Inference& plain, const Fit& fit, const std::vector<Contrast>& contrasts, Index tested) {

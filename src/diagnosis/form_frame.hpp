@@ -16,6 +16,8 @@ namespace twindeck::diagnosis {
 
 /// The contrast in which a candidate acts, -1 where it acts in all conditions alike.
 [[nodiscard]] int contrast_of(const Candidate& candidate, const std::vector<Contrast>& contrasts);
+/// All contrasts in which a candidate acts, that one first: friction goes by the amplitude and by the dampers.
+[[nodiscard]] std::vector<int> contrasts_of(const Candidate& candidate, const std::vector<Contrast>& contrasts);
 
 /// Columns, residual y - g + J x and Sigma_0 of the training rows at a fit. The coordinates of the last `tested` columns of the
 /// fit's Jacobian are those of a cause under test: they become the signatures (per unit of its coordinates) and leave the

@@ -126,9 +126,9 @@ Inference::Inference(const FeatureMap& map, const std::vector<std::unique_ptr<Ca
 }
 
 MatrixXd Inference::slopes(const FeatureMap::Base& at, const std::vector<Cause>& causes, std::size_t which,
-                           const VectorXd& g) const {
+                           const Prediction& here) const {
   const Candidate& candidate = *causes[which].candidate;
-  MatrixXd out(g.size(), candidate.low.size());
+  MatrixXd out(here.g.size(), candidate.low.size());
   for (Index i = 0; i < candidate.low.size(); ++i) {
     std::vector<Cause> moved = causes;
     const double range = candidate.high[i] - candidate.low[i];
@@ -136,7 +136,7 @@ MatrixXd Inference::slopes(const FeatureMap::Base& at, const std::vector<Cause>&
     if (moved[which].a[i] + step > candidate.high[i]) step = -step;
     moved[which].a[i] += step;
     const Prediction p = map_.predict(at, moved, false);
-    out.col(i) = p.valid ? VectorXd((p.g - g) / step) : VectorXd(VectorXd::Zero(g.size()));
+    out.col(i) = p.valid ? VectorXd(change_between(here, p) / step) : VectorXd(VectorXd::Zero(here.g.size()));
   }
   return out;
 }
@@ -174,7 +174,7 @@ Fit Inference::fit(const std::vector<Cause>& causes, const VectorXd& start, int 
     jacobian->leftCols(n) = p.jacobian(training_, Eigen::all);
     Index column = 0;
     for (std::size_t c = 0; c < moved.size(); ++c) {
-      const MatrixXd slope = slopes(base, moved, c, p.g);
+      const MatrixXd slope = slopes(base, moved, c, p);
       for (Index i = 0; i < slope.cols(); ++i, ++column)
         jacobian->col(n + column) = magnitudes.width[column] * pick(slope.col(i), training_);
     }
@@ -214,7 +214,7 @@ VectorXd Inference::change(const Fit& base, const Candidate& candidate, const Ve
   std::vector<Cause> causes = base.causes;
   causes.push_back({&candidate, a});
   const Prediction p = map_.predict(base.base, causes, false);
-  return p.valid ? VectorXd(p.g - base.all.g) : VectorXd();
+  return p.valid ? change_between(base.all, p) : VectorXd();
 }
 
 VectorXd Inference::whitened(const Fit& base, const VectorXd& change) const {

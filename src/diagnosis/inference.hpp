@@ -147,7 +147,7 @@ class Inference {
   /// their columns were scaled (n_coordinates)
   void marginalise(const Eigen::VectorXd& width, Fit& fit) const;
   [[nodiscard]] Eigen::MatrixXd slopes(const FeatureMap::Base& at, const std::vector<Cause>& causes, std::size_t which,
-                                       const Eigen::VectorXd& g) const;
+                                       const Prediction& here) const;
 
   const FeatureMap& map_;
   const std::vector<std::unique_ptr<Candidate>>& candidates_;

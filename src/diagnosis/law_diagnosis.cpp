@@ -1,6 +1,7 @@
 #include "diagnosis/law_diagnosis.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
@@ -26,9 +27,10 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-constexpr double kFarOff = 0.08;        // of frequencies: a person is told
-constexpr double kErrorOfSizes = 0.25;  // deviation of ln(size): a law of the rows does not know the units of a wrong model
-constexpr double kGuarded = 15.0;       // nats of the leader: accounts whose predictions are weighed
+constexpr double kFarOff = 0.08;         // of frequencies: a person is told
+constexpr double kErrorOfSizes = 0.25;   // deviation of ln(size): a law of the rows does not know the units of a wrong model
+constexpr double kMostLeft = 1.0 / 3.0;  // of what changed, RMS: a cause that leaves more is at most a part of it
+constexpr double kGuarded = 15.0;        // nats of the leader: accounts whose predictions are weighed
 
 Scored as_scored(const LawSearch& search, const LawAccount& account, const Inference& informed) {
   const LawEntry& entry = search.entries[static_cast<std::size_t>(account.members.front())];
@@ -119,6 +121,7 @@ class ByLaw {
     out_.verdict = judgement_.verdict;
     winner_ = search_.none;
     reason_ = reason_of_verdict();
+    refuse_partial();
     guard();
     if (out_.verdict == Verdict::named || out_.verdict == Verdict::ambiguous) accept();
     out_.form->frequency = estimate_of(winner_, kFrequencies);
@@ -169,6 +172,20 @@ class ByLaw {
     }
   }
 
+  /// A leading set that leaves more than a part of what changed is no account of it, though nothing else may come nearer.
+  void refuse_partial() {
+    if (out_.verdict != Verdict::named && out_.verdict != Verdict::ambiguous) return;
+    const LawAccount& leader = search_.accounts.front();
+    for (std::size_t c = 0; c < search_.something_else.size(); ++c) {
+      const auto at = static_cast<Index>(kFirstContrast) + static_cast<Index>(c);
+      const double left = leader.evidence.tau[at], whole = search_.something_else[c].tau[at];
+      if (!(left > kMostLeft * whole)) continue;
+      out_.verdict = Verdict::unknown;
+      reason_ = fmt::format("the best cause leaves {:.0f} % of what changed", 100.0 * left / whole);
+      return;
+    }
+  }
+
   [[nodiscard]] std::string reason_of_verdict() const {
     if (out_.verdict == Verdict::none) return "nothing stands out of the form error";
     if (out_.verdict == Verdict::unknown) return "something changed that no cause of the catalogue explains";
@@ -179,8 +196,13 @@ class ByLaw {
     if (search_.accounts.empty() || !search_.accounts.front().scored) return;
     out_.form->gain = gain_by_law(setting_, search_, options_.bootstrap, seed_);
     if (out_.verdict != Verdict::named && out_.verdict != Verdict::ambiguous) return;
-    if (out_.form->gain.low > 0.0) return;
     const std::vector<int>& members = search_.accounts.front().members;
+    // What is wrong with channels shows in every mode alike, and the class of gains learns it from any of them: a mode left out
+    // cannot tell.
+    const bool of_channels = std::all_of(members.begin(), members.end(), [&](int m) {
+      return is_of_a_channel(*search_.entries[static_cast<std::size_t>(m)].candidate);
+    });
+    if (out_.form->gain.low > 0.0 || of_channels) return;
     const bool in_all = std::all_of(members.begin(), members.end(),
                                     [&](int m) { return search_.entries[static_cast<std::size_t>(m)].contrast < 0; });
     out_.verdict = in_all ? Verdict::none : Verdict::unknown;
@@ -331,6 +353,21 @@ void finish_by_law(const Inference& plain, const ByLaw& engine, const DiagnoseOp
   out.gain = held_out_gain(inference, out.before, out.after, options.bootstrap, seed);
 }
 
+/// Tells which measured modes are none of the model's under the answer.
+void add_open_modes(const FeatureMap& map, Diagnosis& out) {
+  std::vector<std::string> modes;
+  for (std::size_t m = 0; m < map.measured_modes().size(); ++m) {
+    const MeasuredMode& mode = map.measured_modes()[m];
+    if (out.after.all.paired[m] >= 0) continue;
+    modes.push_back(fmt::format(
+        "{} ({:.4g} Hz{}{})", mode.label, mode.frequency_Hz, map.features().conditions.size() > 1 ? ", " : "",
+        map.features().conditions.size() > 1 ? map.features().conditions[static_cast<std::size_t>(mode.condition)].name : ""));
+  }
+  if (!modes.empty())
+    out.form->warnings.push_back(
+        fmt::format("no mode of the model is the measured mode {}: its rows decide nothing", fmt::join(modes, ", ")));
+}
+
 std::string message_by_law(const Diagnosis& out, const ByLaw& engine) {
   if (out.verdict == Verdict::named || out.verdict == Verdict::ambiguous) return out.effects.front().sentence;
   const std::string scales = fmt::format("the model's form is off by about {:.1f} % in frequency and {:.1f} % in shape",
@@ -357,9 +394,8 @@ Diagnosis diagnose_by_law(const Inference& whole, const DiagnoseOptions& options
   out.verdict = Verdict::unknown;
   out.message = "the model predicts none of these rows";
   if (!nominal.valid) return out;
-  const FitGround ground = ground_of_fits(whole, prior, nominal.g);
-  const Inference plain(ground.known, whole.candidates());
-  const FeatureMap informed_map = with_form_error(ground.known, prior, nominal.g, ground.level);
+  const Inference& plain = whole;
+  const FeatureMap informed_map = with_form_error(map, prior, nominal.g, level_of_fits(whole, prior, nominal.g));
   const Inference informed(informed_map, plain.candidates());
   const LawSetting setting{plain, informed, contrasts_of(map.features()), options.static_odds};
   out.before = first_fit(informed);
@@ -370,11 +406,9 @@ Diagnosis diagnose_by_law(const Inference& whole, const DiagnoseOptions& options
   out.form.emplace();
   ByLaw engine(setting, options, seed, out);
   engine.run();
-  if (!ground.strangers.labels.empty())
-    out.form->warnings.push_back(fmt::format("no mode of the model resembles the measured mode {}: its rows count for nothing",
-                                             fmt::join(ground.strangers.labels, ", ")));
   finish_by_law(plain, engine, options, seed, out);
   engine.refuse_sizes();
+  add_open_modes(map, out);
   out.message = message_by_law(out, engine);
   return out;
 }

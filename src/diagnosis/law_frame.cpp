@@ -1,5 +1,9 @@
 #include "diagnosis/law_frame.hpp"
 
+#include <Eigen/Cholesky>
+#include <cmath>
+#include <set>
+
 #include "core/error.hpp"
 #include "linalg/dense.hpp"
 
@@ -11,8 +15,11 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-constexpr double kUnit = 0.01;          // [-] scale of every class: about what a carefully fitted model is off
-constexpr double kWideScale = 10.0;     // [-] of a shape, relative: wide enough to cost nothing
+constexpr double kUnit = 0.01;             // [-] scale of every class: about what a carefully fitted model is off
+constexpr double kNoneOfTheModels = 0.05;  // of measured modes: spurious, doubled, or a hybrid that the model lacks
+constexpr double kOpenFrequency = 0.5, kOpenDamping = 1.0;  // deviation of ln f and ln zeta of such a mode
+constexpr double kNoVariance = 1e-12;                       // of the largest pivot: rounding
+constexpr double kWideScale = 10.0;                         // [-] of a shape, relative: wide enough to cost nothing
 constexpr double kLargestColumn = 1e6;  // deviations of a row: beyond, 16 digits do not hold the unknowns' own variance
 
 /// Columns of unknowns side by side.
@@ -28,18 +35,50 @@ MatrixXd beside(const std::vector<MatrixXd>& parts, Index rows) {
   return out;
 }
 
-/// Columns of the same law D D' that are no more than the rows.
-MatrixXd no_more_than_rows(MatrixXd columns) {
-  if (columns.cols() <= columns.rows()) return columns;
-  const linalg::ThinSvd svd = linalg::thin_svd(std::move(columns));
-  return svd.u * svd.values.asDiagonal();
+/// Variance of the rows that a prediction leaves open, wide enough for any mode of the band, and ln of the prior of so many
+/// modes that are none of the model's.
+std::pair<VectorXd, double> open_modes(const FeatureMap& map, const Prediction& prediction) {
+  VectorXd variance = VectorXd::Zero(map.values().size());
+  double log_prior = 0.0;
+  const std::set<int> open(prediction.open.begin(), prediction.open.end());
+  for (std::size_t m = 0; m < map.measured_modes().size(); ++m) {
+    const MeasuredMode& mode = map.measured_modes()[m];
+    if (prediction.paired[m] < 0) log_prior += std::log(kNoneOfTheModels);
+    for (const int row : {mode.frequency, mode.damping})
+      if (row >= 0 && open.contains(row))
+        variance[row] = row == mode.frequency ? kOpenFrequency * kOpenFrequency : kOpenDamping * kOpenDamping;
+    if (mode.real_rows.empty() || !open.contains(mode.real_rows.front())) continue;
+    const double square = map.values()(mode.real_rows).squaredNorm() / static_cast<double>(mode.real_rows.size());
+    for (const auto* rows : {&mode.real_rows, &mode.imag_rows})
+      for (const int row : *rows) variance[row] = square;
+  }
+  return {variance, log_prior};
 }
 
-/// Weight of each training row in a contrast.
-VectorXd weight_of_rows(const Contrast& contrast, const FeatureSet& features, const std::vector<int>& rows) {
-  VectorXd out(std::ssize(rows));
-  for (Index r = 0; r < out.size(); ++r)
-    out[r] = contrast.weight[features.rows[static_cast<std::size_t>(rows[static_cast<std::size_t>(r)])].condition];
+/// Columns of a covariance, as many as its rank.
+MatrixXd columns_of(const MatrixXd& covariance) {
+  const Eigen::LDLT<MatrixXd> factor(covariance);
+  const VectorXd d = factor.vectorD();
+  std::vector<int> kept;
+  for (Index k = 0; k < d.size(); ++k)
+    if (d[k] > kNoVariance * d.maxCoeff()) kept.push_back(static_cast<int>(k));
+  const MatrixXd lower = factor.matrixL();
+  return factor.transpositionsP().transpose() * MatrixXd(lower(Eigen::all, kept) * d(kept).cwiseSqrt().asDiagonal());
+}
+
+MatrixXd covariance_of(const MatrixXd& columns) { return linalg::product(columns, columns.transpose()); }
+
+/// Covariance along a contrast of what has independent increments, a Wiener process that starts where the contrast is nil:
+/// smooth changes are among them, and those that turn (n_rows × n_rows). What all conditions share is the form error's.
+MatrixXd along(const Contrast& contrast, const FeatureSet& features, const std::vector<int>& rows) {
+  VectorXd weight(std::ssize(rows));
+  for (Index r = 0; r < weight.size(); ++r)
+    weight[r] = contrast.weight[features.rows[static_cast<std::size_t>(rows[static_cast<std::size_t>(r)])].condition];
+  weight.array() -= std::max(weight.minCoeff(), 0.0);
+  MatrixXd out(weight.size(), weight.size());
+  for (Index i = 0; i < out.rows(); ++i)
+    for (Index j = 0; j < out.cols(); ++j)
+      out(i, j) = weight[i] * weight[j] > 0.0 ? std::min(std::abs(weight[i]), std::abs(weight[j])) : 0.0;
   return out;
 }
 
@@ -49,10 +88,10 @@ LawSystem law_system(const Inference& plain, const Fit& fit, const std::vector<C
   TWINDECK_ASSERT(fit.made() && tested <= fit.causes.size());
   const FeatureMap& map = plain.map();
   const std::vector<int>& rows = plain.training();
-  const auto n = static_cast<Index>(map.nuisances().size());
   const MatrixXd& j = fit.map.jacobian;
   Index asked = 0;
   for (std::size_t c = fit.causes.size() - tested; c < fit.causes.size(); ++c) asked += fit.causes[c].a.size();
+  const auto n = static_cast<Index>(map.nuisances().size());
   std::vector<int> known, gains;
   for (Index k = 0; k < n; ++k)
     (map.nuisances()[static_cast<std::size_t>(k)].kind == Nuisance::Kind::gain ? gains : known).push_back(static_cast<int>(k));
@@ -66,16 +105,21 @@ LawSystem law_system(const Inference& plain, const Fit& fit, const std::vector<C
       beside({j(Eigen::all, known), kWideScale * fit.map.scales, rotations(rows, Eigen::all)}, std::ssize(rows));
   LawSystem out;
   out.sigma = plain.covariance() + linalg::product(fixed, fixed.transpose());
+  const auto [variance, log_prior] = open_modes(map, fit.all);
+  out.sigma.diagonal() += variance(rows);
+  out.log_prior = log_prior;
   MatrixXd gain(std::ssize(rows), std::ssize(gains));
   for (Index k = 0; k < gain.cols(); ++k) {
     const auto position = static_cast<std::size_t>(gains[static_cast<std::size_t>(k)]);
     gain.col(k) = kUnit / map.nuisances()[position].deviation * j.col(gains[static_cast<std::size_t>(k)]);
   }
-  out.classes = {kUnit * form.frequency(rows, Eigen::all), no_more_than_rows(kUnit * form.shape(rows, Eigen::all)),
-                 no_more_than_rows(kUnit * form.kinks(rows, Eigen::all)), std::move(gain)};
-  const MatrixXd all = beside({out.classes[kFrequencies], out.classes[kShapes], out.classes[kKinks]}, std::ssize(rows));
+  const MatrixXd shape = kUnit * form.shape(rows, Eigen::all);
+  out.classes = {kUnit * form.frequency(rows, Eigen::all),
+                 shape.cols() > shape.rows() ? columns_of(covariance_of(shape)) : shape, kUnit * form.kinks(rows, Eigen::all),
+                 std::move(gain)};
+  const MatrixXd all = covariance_of(beside({out.classes[kFrequencies], shape, out.classes[kKinks]}, std::ssize(rows)));
   for (const Contrast& contrast : contrasts)
-    out.classes.push_back(no_more_than_rows(weight_of_rows(contrast, map.features(), rows).asDiagonal() * all));
+    out.classes.push_back(columns_of(all.cwiseProduct(along(contrast, map.features(), rows))));
   VectorXd x = fit.map.x;
   x.tail(asked).setZero();
   out.residual = map.values()(rows) - fit.map.g + j * x;

@@ -7,8 +7,8 @@
 #include <set>
 
 #include "core/parallel.hpp"
-#include "diagnosis/form_frame.hpp"
 #include "diagnosis/form_magnitudes.hpp"
+#include "diagnosis/law_screen.hpp"
 #include "diagnosis/law_sets.hpp"
 #include "linalg/dense.hpp"
 
@@ -20,213 +20,24 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-constexpr double kLeftPart = 0.1;           // of a cause's effect: scale of what it leaves over in its contrast …
-constexpr double kLeastLeft = 0.1;          // … in units of the class, at least
-constexpr double kPerCent = 100.0;          // units of a class in a relative effect
-const double kShrinks[] = {0.0, 1.5, 3.0};  // of ln tau: a large cause leaves smaller errors than nothing does
-constexpr double kShows = 1e-3;             // deviations: below, these rows show nothing of an entry
-constexpr double kKeptMagnitudes = 10.0;    // nats of the best: farther ones add nothing
-constexpr double kOneFit = 0.01;            // prior deviations: nearer fits are one
+constexpr double kKeptMagnitudes = 10.0;  // nats of the best: farther ones add nothing
+constexpr double kOneFit = 0.01;          // prior deviations: nearer fits are one
 constexpr std::size_t kLeading = 6, kMostLeading = 10, kOfFewPlaces = 6;
 constexpr int kLeadingRounds = 4;
+constexpr std::size_t kTriedBeside = 3;                   // entries that are tried beside the leading account
 constexpr double kNear = 8.0, kNearFamily = 12.0;         // nats of the best: worth a fit of their own …
 constexpr double kNearShare = 0.1, kFamilyShareOf = 0.3;  // … or this much of what it has over nothing
 constexpr double kFarBelow = -8.0;  // nats against nothing: where the best entry is below, no fit brings it to five per cent
-
-double log_sum_of(const VectorXd& v) {
-  const double top = v.maxCoeff();
-  return top + std::log((v.array() - top).exp().sum());
-}
-
-/// RMS change of the frequencies in the conditions where something acts.
-double effect_on(const Inference& inference, const VectorXd& change, const std::vector<bool>& acts) {
-  double sum = 0.0;
-  int rows = 0;
-  for (const int r : inference.training()) {
-    const Row& row = inference.map().features().rows[static_cast<std::size_t>(r)];
-    if (row.type != RowType::frequency || !acts[static_cast<std::size_t>(row.condition)]) continue;
-    sum += change[r] * change[r];
-    ++rows;
-  }
-  return rows > 0 ? std::sqrt(sum / rows) : 0.0;
-}
-
-std::vector<bool> acting_conditions(const LawSetting& setting, const Candidate& candidate, int contrast) {
-  const FeatureSet& features = setting.plain.map().features();
-  std::vector<bool> out;
-  for (std::size_t c = 0; c < features.conditions.size(); ++c)
-    out.push_back(!candidate.state.empty() ? candidate.acts_in(features.conditions[c])
-                  : contrast < 0           ? true
-                                 : setting.contrasts[static_cast<std::size_t>(contrast)].weight[static_cast<Index>(c)] != 0.0);
-  return out;
-}
-
-/// Scale of what a cause leaves over, in units of its contrast's class.
-double left_scale(double effect) { return std::max(kLeastLeft, kLeftPart * kPerCent * effect); }
-
-/// A fault of channels shows in all modes and is like no error of the form. A wrong label of a mode looks like one.
-bool is_of_a_channel(const Candidate& candidate) { return candidate.hypothesis->measurement && !candidate.channels.empty(); }
-
-/// Fills entries and the signatures of the base's system.
-void collect_entries(const LawSetting& setting, LawSearch& search) {
-  const auto& candidates = setting.plain.candidates();
-  std::vector<LawEntry> all(candidates.size());
-  parallel_for(candidates.size(), [&](std::size_t i) {
-    all[i].candidate = candidates[i].get();
-    all[i].contrast = contrast_of(*candidates[i], setting.contrasts);
-    all[i].tried = setting.informed.tried(search.base, *candidates[i]);
-  });
-  std::map<std::pair<bool, int>, double> share;  // of a class of causes: channels, or by contrast
-  const auto class_of = [](const LawEntry& e) { return std::pair(is_of_a_channel(*e.candidate), e.contrast); };
-  std::vector<VectorXd> columns;
-  for (LawEntry& entry : all) {
-    const auto shows = [&](const Inference::Tried& t) {
-      return setting.informed.whitened(search.base, t.change).norm() > kShows;
-    };
-    if (std::none_of(entry.tried.begin(), entry.tried.end(), shows)) continue;
-    const std::vector<bool> acts = acting_conditions(setting, *entry.candidate, entry.contrast);
-    entry.first_signature = std::ssize(columns);
-    for (const Inference::Tried& tried : entry.tried) {
-      entry.effects.push_back(effect_on(setting.plain, tried.change, acts));
-      columns.emplace_back(tried.change(setting.plain.training()));
-    }
-    share[class_of(entry)] += std::exp(entry.candidate->log_prior);
-    search.entries.push_back(std::move(entry));
-  }
-  for (LawEntry& entry : search.entries) {
-    const bool everywhere = entry.contrast < 0 && !is_of_a_channel(*entry.candidate);
-    entry.log_prior =
-        entry.candidate->log_prior - std::log(share.at(class_of(entry))) + (everywhere ? setting.static_odds : 0.0);
-  }
-  search.system.signatures.resize(std::ssize(setting.plain.training()), std::ssize(columns));
-  for (std::size_t k = 0; k < columns.size(); ++k) search.system.signatures.col(static_cast<Index>(k)) = columns[k];
-}
-
-/// Scales at which entries are looked at, with the volume of Laplace's approximation.
-struct ScreenPoint {
-  VectorXd tau;
-  double log_volume = 0.0;
-  int contrast = -1;
-};
-
-double volume_of(const LawEvidence& evidence, double value) { return evidence.log_evidence - value; }
-
-class Screen {
- public:
-  Screen(const LawSetting& setting, LawSearch& search, const OneLaw& law)
-      : setting_(setting),
-        search_(search),
-        law_(law),
-        residual_(law.whitened(search.system.residual)),
-        signatures_(law.whitened(search.system.signatures)) {}
-
-  /// The modes of nothing and of something else.
-  void weigh_nothing() {
-    LawHypothesis none{search_.system.residual,        VectorXd::Zero(1), MatrixXd(search_.system.residual.size(), 0), {}, {},
-                       lasting_classes(search_.system)};
-    search_.none = law_.scored(none, VectorXd::Ones(law_.classes()));
-    add_point(search_.none, law_.log_posterior(none, search_.none.tau), -1);
-    search_.something_else.resize(setting_.contrasts.size());
-    std::vector<double> value(setting_.contrasts.size());
-    parallel_for(setting_.contrasts.size(), [&](std::size_t c) {
-      LawHypothesis other = none;
-      other.active.push_back({kFirstContrast + static_cast<int>(c), 1.0});
-      search_.something_else[c] = law_.scored(other, search_.none.tau);
-      value[c] = law_.log_posterior(other, search_.something_else[c].tau);
-    });
-    for (std::size_t c = 0; c < value.size(); ++c) {
-      search_.else_weight.push_back(search_.something_else[c].log_evidence);
-      add_point(search_.something_else[c], value[c], static_cast<int>(c));
-    }
-  }
-
-  /// Every entry alone, its magnitudes summed over, at the best of the points.
-  void weigh_entries() {
-    search_.accounts.resize(search_.entries.size());
-    for (std::size_t i = 0; i < search_.entries.size(); ++i) {
-      search_.accounts[i].members = {static_cast<int>(i)};
-      search_.accounts[i].log_prior = search_.entries[i].log_prior;
-    }
-    for (const ScreenPoint& point : points_) {
-      const OneLaw::Point at = law_.at(point.tau);
-      if (at.lower.size() == 0) continue;
-      const VectorXd residual = linalg::lower_solve(at.lower, residual_);
-      const MatrixXd signatures = linalg::lower_solve(at.lower, signatures_);
-      const VectorXd along = signatures.transpose() * residual, square = signatures.colwise().squaredNorm();
-      parallel_for(search_.accounts.size(), [&](std::size_t i) {
-        const LawEntry& entry = search_.entries[i];
-        if (entry.contrast != point.contrast) return;
-        LawAccount& account = search_.accounts[i];
-        const std::vector<double> factors = magnitude_factors(*entry.candidate);
-        VectorXd terms(std::ssize(entry.tried) * std::ssize(factors));
-        Index k = 0;
-        for (std::size_t m = 0; m < entry.tried.size(); ++m)
-          for (const double t : factors) {
-            const Index s = entry.first_signature + static_cast<Index>(m);
-            terms[k++] = t * along[s] - 0.5 * t * t * square[s] + prior_of(point, t * entry.effects[m]);
-          }
-        const double value = log_sum_of(terms) - std::log(static_cast<double>(terms.size())) -
-                             0.5 * (residual.squaredNorm() + at.log_determinant) + point.log_volume;
-        if (!(value + account.log_prior > account.log_weight)) return;
-        account.log_weight = value + account.log_prior;
-        account.evidence.tau = point.tau;
-        account.evidence.log_evidence = value;
-        Index best = 0;
-        terms.maxCoeff(&best);
-        const auto factor = static_cast<std::size_t>(best) % factors.size(),
-                   tried = static_cast<std::size_t>(best) / factors.size();
-        account.causes = {{entry.candidate, entry.tried[tried].a}};
-        if (is_a_size(*entry.candidate))
-          account.causes.front().a[0] = scaled_magnitude(*entry.candidate, account.causes.front().a[0], factors[factor]);
-        account.effect = factors[factor] * entry.effects[tried];
-        account.evidence.chi_squared = residual.squaredNorm() - 2.0 * terms[best];
-      });
-    }
-  }
-
- private:
-  /// A mode and the same errors made smaller; of nothing also with a little left over in each contrast.
-  void add_point(const LawEvidence& evidence, double value, int contrast) {
-    if (evidence.tau.size() == 0) return;
-    for (const double shrink : kShrinks) {
-      points_.push_back({std::exp(-shrink) * evidence.tau, volume_of(evidence, value), contrast});
-      if (contrast >= 0) continue;
-      for (std::size_t c = 0; c < setting_.contrasts.size(); ++c) {
-        ScreenPoint with = points_.back();
-        with.contrast = static_cast<int>(c);
-        with.tau[kFirstContrast + static_cast<int>(c)] = kLeastLeft;
-        with.log_volume += 0.5 * std::log(2.0 * std::numbers::pi);
-        points_.push_back(with);
-      }
-    }
-  }
-
-  /// ln prior of a point's scales beside an effect.
-  [[nodiscard]] double prior_of(const ScreenPoint& point, double effect) const {
-    double sum = 0.0;
-    for (Index c = 0; c < point.tau.size(); ++c)
-      if (point.tau[c] > 0.0) sum += log_half_t(std::log(point.tau[c]), c >= kFirstContrast ? left_scale(effect) : 1.0);
-    return sum;
-  }
-
-  const LawSetting& setting_;
-  LawSearch& search_;
-  const OneLaw& law_;
-  MatrixXd residual_, signatures_;
-  std::vector<ScreenPoint> points_;
-};
-
-void sort_accounts(std::vector<LawAccount>& accounts) {
-  std::stable_sort(accounts.begin(), accounts.end(),
-                   [](const LawAccount& a, const LawAccount& b) { return a.log_weight > b.log_weight; });
-}
 
 /// Classes of a set of causes; an effect sets what is left over in each of its contrasts.
 std::vector<ActiveClass> classes_of(const LawSearch& search, const LawSystem& system, const LawAccount& account,
                                     double effect) {
   std::vector<ActiveClass> out = lasting_classes(system);
   std::set<int> contrasts;
-  for (const int m : account.members) contrasts.insert(search.entries[static_cast<std::size_t>(m)].contrast);
+  for (const int m : account.members) {
+    const std::vector<int>& own = search.entries[static_cast<std::size_t>(m)].contrasts;
+    contrasts.insert(own.begin(), own.end());
+  }
   for (const int contrast : contrasts)
     if (contrast >= 0) out.push_back({kFirstContrast + contrast, left_scale(effect)});
   return out;
@@ -287,9 +98,9 @@ void score_at_base(const OneLaw& law, const LawSearch& search, LawAccount& accou
   account.scored = true;
 }
 
-/// A set with its causes in the model, fitted from the base and from the prior mean; the larger evidence counts.
-void refine_by_law(const LawSetting& setting, const LawSearch& search, LawAccount& account) {
-  const auto n = static_cast<Index>(setting.plain.map().nuisances().size());
+/// A set with its causes in the model, fitted from each start; the largest evidence counts.
+void refine_by_law(const LawSetting& setting, const LawSearch& search, LawAccount& account,
+                   const std::vector<VectorXd>& starts) {
   std::vector<Cause> start = search.base.causes;
   start.insert(start.end(), account.causes.begin(), account.causes.end());
   const VectorXd tau = account.evidence.tau;
@@ -300,7 +111,7 @@ void refine_by_law(const LawSetting& setting, const LawSearch& search, LawAccoun
     for (std::size_t c = 0; c < acts.size(); ++c) acts[c] = acts[c] || own[c];
   }
   VectorXd found_before;
-  for (const VectorXd& x : {VectorXd(search.base.map.x.head(n)), VectorXd()}) {
+  for (const VectorXd& x : starts) {
     Fit with = setting.informed.fit(start, x);
     if (!with.made()) continue;
     if (found_before.size() > 0 && (with.map.x - found_before).norm() < kOneFit) continue;
@@ -310,7 +121,7 @@ void refine_by_law(const LawSetting& setting, const LawSearch& search, LawAccoun
     const OneLaw law(*system);
     if (!law.sound()) continue;
     const Prediction without = setting.plain.map().predict(with.base, search.base.causes, false);
-    const double effect = without.valid ? effect_on(setting.plain, with.all.g - without.g, acts) : account.effect;
+    const double effect = without.valid ? effect_on(setting.plain, change_between(without, with.all), acts) : account.effect;
     LawHypothesis hypothesis{system->residual,
                              VectorXd::Zero(1),
                              system->signatures,
@@ -332,6 +143,7 @@ void refine_by_law(const LawSetting& setting, const LawSearch& search, LawAccoun
     account.causes.assign(with.causes.begin() + std::ssize(search.base.causes), with.causes.end());
     account.with = std::move(with);
     account.system = std::move(system);
+    account.scored = true;
   }
 }
 
@@ -346,9 +158,80 @@ VectorXd start_of_set(const LawSearch& search, const LawAccount& set) {
     out = best->evidence.tau;
   out.tail(out.size() - kFirstContrast) *= 0.0;
   for (const int m : set.members)
-    if (const int contrast = search.entries[static_cast<std::size_t>(m)].contrast; contrast >= 0)
+    for (const int contrast : search.entries[static_cast<std::size_t>(m)].contrasts)
       out[kFirstContrast + contrast] = kLeastLeft;
   return out;
+}
+
+/// A better optimiser must not look like a further cause: what the leading set's parameters do for each of its causes alone.
+void fit_alone_from_sets(const LawSetting& setting, LawSearch& search) {
+  sort_accounts(search.accounts);
+  const LawAccount leader = search.accounts.front();
+  if (leader.members.size() < 2 || !leader.refined()) return;
+  const VectorXd x = leader.with.map.x.head(static_cast<Index>(setting.plain.map().nuisances().size()));
+  const auto is_of_leader = [&](int m) {
+    return std::find(leader.members.begin(), leader.members.end(), m) != leader.members.end();
+  };
+  for (LawAccount& account : search.accounts)
+    if (account.members.size() < leader.members.size() && account.refined() &&
+        std::all_of(account.members.begin(), account.members.end(), is_of_leader))
+      refine_by_law(setting, search, account, {x});
+}
+
+/// Entries that promise most at the fit with the leading account in the model, each beside it.
+std::vector<LawAccount> sets_beside(const LawSetting& setting, const LawSearch& search, const LawAccount& leader) {
+  LawSearch beside;
+  beside.base = leader.with;
+  beside.system = law_system(setting.plain, beside.base, setting.contrasts);
+  collect_entries(setting, beside);
+  const OneLaw law(beside.system);
+  std::vector<LawAccount> out;
+  if (!can_be_weighed(beside.system) || !law.sound()) return out;
+  screen_by_law(setting, beside, law);
+  for (const LawAccount& found : beside.accounts) {
+    if (out.size() == kTriedBeside || found.log_weight < beside.none.log_evidence + kFarBelow) break;
+    const Candidate* candidate = beside.entries[static_cast<std::size_t>(found.members.front())].candidate;
+    const auto entry =
+        std::find_if(search.entries.begin(), search.entries.end(), [&](const LawEntry& e) { return e.candidate == candidate; });
+    const auto position = static_cast<int>(entry - search.entries.begin());
+    if (entry == search.entries.end() ||
+        std::find(leader.members.begin(), leader.members.end(), position) != leader.members.end())
+      continue;
+    LawAccount set;
+    set.members = leader.members;
+    set.members.push_back(position);
+    set.log_prior = leader.log_prior + entry->log_prior;
+    set.evidence.tau = leader.evidence.tau;
+    set.causes = leader.causes;
+    set.causes.push_back(found.causes.front());
+    out.push_back(std::move(set));
+  }
+  return out;
+}
+
+/// Further causes beside the leading account, looked for with it in the model: one that is large hides the others from the
+/// base, where modes may be none of the model's for its sake.
+void look_beside_leader(const LawSetting& setting, LawSearch& search) {
+  for (std::size_t size = 1; size < kMostInASet; ++size) {
+    const auto best = std::find_if(search.accounts.begin(), search.accounts.end(),
+                                   [&](const LawAccount& a) { return a.members.size() == size && a.refined(); });
+    if (best == search.accounts.end() || (size > 1 && best != search.accounts.begin())) return;
+    const LawAccount leader = *best;
+    std::vector<LawAccount> sets = sets_beside(setting, search, leader);
+    const VectorXd x = leader.with.map.x.head(static_cast<Index>(setting.plain.map().nuisances().size()));
+    parallel_for(sets.size(), [&](std::size_t i) { refine_by_law(setting, search, sets[i], {x}); });
+    for (LawAccount& set : sets) {
+      const auto same = std::find_if(search.accounts.begin(), search.accounts.end(), [&](const LawAccount& a) {
+        return std::is_permutation(a.members.begin(), a.members.end(), set.members.begin(), set.members.end());
+      });
+      if (same == search.accounts.end())
+        search.accounts.push_back(std::move(set));
+      else if (set.log_weight > same->log_weight)
+        *same = std::move(set);
+    }
+    std::erase_if(search.accounts, [](const LawAccount& a) { return a.members.size() > 1 && !a.scored; });
+    sort_accounts(search.accounts);
+  }
 }
 
 /// Accounts that are worth a fit of their own: the best and the best of each family.
@@ -385,13 +268,6 @@ std::vector<LawAccount*> leading_accounts(LawSearch& search, const std::set<int>
 
 }  // namespace
 
-std::vector<ActiveClass> lasting_classes(const LawSystem& system) {
-  std::vector<ActiveClass> out;
-  for (int c = 0; c < kFirstContrast; ++c)
-    if (system.classes[static_cast<std::size_t>(c)].cols() > 0) out.push_back({c, 1.0});
-  return out;
-}
-
 LawSearch search_by_law(const LawSetting& setting, const Fit& base) {
   LawSearch out;
   out.base = base;
@@ -400,18 +276,17 @@ LawSearch search_by_law(const LawSetting& setting, const Fit& base) {
   const OneLaw law(out.system);
   out.weighed = can_be_weighed(out.system) && law.sound();
   if (!out.weighed) return out;
-  Screen screen(setting, out, law);
-  screen.weigh_nothing();
-  screen.weigh_entries();
-  sort_accounts(out.accounts);
+  screen_by_law(setting, out, law);
   if (out.accounts.empty() || out.accounts.front().log_weight < out.none.log_evidence + kFarBelow) return out;
+  const auto n = static_cast<Index>(setting.plain.map().nuisances().size());
+  const std::vector<VectorXd> starts = {out.base.map.x.head(n), {}};
   std::set<int> done;
   for (int round = 0; round < kLeadingRounds && !done.contains(out.accounts.front().members.front()); ++round) {
     const std::vector<LawAccount*> these = leading_accounts(out, done);
     if (these.empty()) break;
     parallel_for(these.size(), [&](std::size_t i) {
-      score_at_base(law, out, *these[i]);
-      if (these[i]->scored) refine_by_law(setting, out, *these[i]);
+      refine_by_law(setting, out, *these[i], starts);
+      if (!these[i]->refined()) score_at_base(law, out, *these[i]);
     });
     for (const LawAccount* account : these) done.insert(account->members.front());
     sort_accounts(out.accounts);
@@ -421,11 +296,14 @@ LawSearch search_by_law(const LawSetting& setting, const Fit& base) {
       out, law,
       [&](LawAccount& account) {
         account.evidence.tau = start_of_set(out, account);
-        score_at_base(law, out, account);
-        if (account.scored) refine_by_law(setting, out, account);
+        score_at_base(law, out, account);  // the magnitudes that a fit starts at
+        if (account.scored) refine_by_law(setting, out, account, starts);
       },
       sets);
   for (LawAccount& account : sets) out.accounts.push_back(std::move(account));
+  sort_accounts(out.accounts);
+  look_beside_leader(setting, out);
+  fit_alone_from_sets(setting, out);
   sort_accounts(out.accounts);
   return out;
 }

@@ -24,6 +24,7 @@ struct LawSetting {
 struct LawEntry {
   const Candidate* candidate = nullptr;
   int contrast = -1;                    ///< in which it acts; -1: in all conditions alike
+  std::vector<int> contrasts;           ///< all in which it acts, that one first
   double log_prior = 0.0;               ///< ln prior odds against nothing
   std::vector<Inference::Tried> tried;  ///< magnitudes
   std::vector<double> effects;          ///< of each, RMS change of ln f where the entry acts
@@ -57,6 +58,9 @@ struct LawSearch {
 };
 
 [[nodiscard]] LawSearch search_by_law(const LawSetting& setting, const Fit& base);
+
+/// Whether something is wrong with a channel, so that it shows in all modes.
+[[nodiscard]] bool is_of_a_channel(const Candidate& candidate);
 
 /// Classes that are active in a system whichever causes act: those that have columns, without the contrasts.
 [[nodiscard]] std::vector<ActiveClass> lasting_classes(const LawSystem& system);

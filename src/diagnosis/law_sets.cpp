@@ -20,8 +20,7 @@ using Eigen::VectorXd;
 constexpr std::size_t kMembersOfSets = 40;  ///< entries that sets are made of: the leading ones
 constexpr std::size_t kScalesOfSets = 3;    ///< accounts whose scales sets are looked at with
 constexpr std::size_t kScoredSets = 3;      ///< sets of each size that get scales and a fit of their own
-constexpr std::size_t kMostInASet = 3;
-constexpr double kPromises = 3.0;  ///< nats that a set may be behind the best smaller one on the linearised base
+constexpr double kPromises = 3.0;           ///< nats that a set may be behind the best smaller one on the linearised base
 
 /// Entries at one choice of scales: products of their signatures with the residual and with one another.
 struct LookAtSets {

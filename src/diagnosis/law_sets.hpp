@@ -8,6 +8,8 @@
 /// Private to src/diagnosis. Causes that act together.
 namespace twindeck::diagnosis {
 
+constexpr std::size_t kMostInASet = 3;
+
 /// Sets of two causes among the leading entries, and of three if a set of two leads. All sets are looked at on the linearised
 /// base, magnitudes summed over; the most promising are weighed.
 /// @param weigh  gives an account its evidence @param found  takes those that were weighed

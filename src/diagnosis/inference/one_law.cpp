@@ -18,7 +18,7 @@ using Eigen::VectorXd;
 constexpr double kRidge = 0.3;        // of H in a step: a class that the data do not show moves slowly
 constexpr double kLongestStep = 1.5;  // of ln tau
 constexpr int kIterations = 25, kHalvings = 5;
-constexpr double kSettled = 1e-3;  // nats that a further step promises: less decides nothing
+constexpr double kSettled = 0.02;  // nats that a further step promises: less decides nothing
 
 double log_of_sum(const VectorXd& v, VectorXd& weight) {
   const double top = v.maxCoeff();
@@ -58,7 +58,7 @@ struct OneLaw::Look {
   MatrixXd curvature;
 };
 
-OneLaw::OneLaw(const LawSystem& system) : whitener_(linalg::cholesky_factor(system.sigma)) {
+OneLaw::OneLaw(const LawSystem& system) : whitener_(linalg::cholesky_factor(system.sigma)), log_prior_(system.log_prior) {
   if (whitener_.size() == 0) return;
   log_determinant_ = 2.0 * whitener_.diagonal().array().log().sum();
   for (const MatrixXd& columns : system.classes) {
@@ -93,7 +93,7 @@ OneLaw::Look OneLaw::look(const LawHypothesis& white, const VectorXd& log_tau) c
   Look out;
   out.log_tau = log_tau;
   out.tau = VectorXd::Zero(classes());
-  double prior = 0.0;
+  double prior = log_prior_;
   for (std::size_t k = 0; k < white.active.size(); ++k) {
     const double t = log_tau[static_cast<Index>(k)];
     out.tau[white.active[k].index] = std::exp(t);

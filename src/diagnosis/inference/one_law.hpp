@@ -14,6 +14,7 @@ struct LawSystem {
   std::vector<Eigen::MatrixXd> classes;  ///< D_c (n_rows × n_c each)
   Eigen::VectorXd residual;              ///< r (n_rows)
   Eigen::MatrixXd signatures;            ///< of causes, one column each (n_rows × n_signatures)
+  double log_prior = 0.0;                ///< of what else the system takes for true
 };
 
 /// A class that is active under a hypothesis, and the scale of its half-t law.
@@ -84,7 +85,7 @@ class OneLaw {
   void slope_of(const LawHypothesis& white, Look& look) const;
 
   Eigen::MatrixXd whitener_;  // L_0
-  double log_determinant_ = 0.0;
+  double log_determinant_ = 0.0, log_prior_ = 0.0;
   std::vector<Eigen::MatrixXd> columns_, products_;  // L_0^-1 D_c, and times its transpose
 };
 

@@ -290,6 +290,12 @@ Eigen::MatrixXd own_columns(const std::vector<FeatureMap::Base::Part>& parts, co
   return total;
 }
 
+Eigen::VectorXd change_between(const Prediction& from, const Prediction& to) {
+  Eigen::VectorXd change = to.g - from.g;
+  for (const Prediction* p : {&from, &to}) change(p->open).setZero();
+  return change;
+}
+
 std::pair<Eigen::MatrixXd, Eigen::MatrixXd> FeatureMap::matrices(const Base& base, const std::vector<int>& columns) const {
   const Index n = std::ssize(columns), c = model_.common;
   TWINDECK_ASSERT(n >= c && (c == 0 || columns[static_cast<std::size_t>(c) - 1] == c - 1));

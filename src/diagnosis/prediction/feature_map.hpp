@@ -57,7 +57,11 @@ struct Prediction {
   std::vector<double> frequency_Hz;  ///< (n_measured_modes) of the paired model modes
   std::vector<int> paired;           ///< (n_measured_modes) position of the paired model mode in its state, -1
   std::vector<double> mac;           ///< (n_measured_modes) with the paired mode, NaN without shape
+  std::vector<int> open;             ///< rows of measured modes that are none of the model's: g holds the measured values there
 };
+/// g of one prediction less that of another (n_rows), 0 in rows that either leaves open: what one of them does not explain says
+/// nothing of the other.
+[[nodiscard]] Eigen::VectorXd change_between(const Prediction& from, const Prediction& to);
 
 /// Undamped modes of the model as the channels see them, and which of them each measured mode is paired with.
 struct FormModes {

@@ -40,6 +40,10 @@ FormModes Predictor::form_modes() {
   for (std::size_t m = 0; m < map_.modes_.size(); ++m) {
     const MeasuredMode& measured = map_.modes_[m];
     PairedMode mode{-1, measured.condition, measured.frequency, measured.real_rows, measured.real_channels};
+    if (prediction.paired[m] < 0) {
+      out.paired.push_back(mode);
+      continue;
+    }
     const SolvedState& state = solved(measured.condition);
     const VectorXd re = state.modes.shapes.col(prediction.paired[m]).head(c).real(),
                    im = state.modes.shapes.col(prediction.paired[m]).head(c).imag();

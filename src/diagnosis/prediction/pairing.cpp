@@ -42,6 +42,12 @@ constexpr double kFarDamping = 3.0, kLeastDamping = 1e-3;
 /// decides up to a distance of 40 steps. The others are less, so two far frequencies outweigh two measured shapes.
 constexpr double kShapeHere = 3.0, kShapeElsewhere = 2.0, kBoundShape = 6.0;
 
+/// Steps that it costs a measured mode with a shape to be none of the model's: a far frequency and half of what its shape
+/// weighs. The right shape at a far frequency costs less; so does a poor shape at the right one, but not a MAC below
+/// kLeastAlike, which is another mode. Without a shape nothing tells a mode from those of the model: it is none of them only
+/// where there are too few.
+constexpr double kNoCounterpart = kFarSteps + 0.5 * kShapeHere, kLeastAlike = 0.2;
+
 }  // namespace
 
 VectorXd likeness(const MatrixXcd& shapes, const VectorXcd& measured) {
@@ -115,6 +121,26 @@ VectorXd Predictor::unlike_bound(int position, const SolvedState& state) const {
   return 1.0 - along.cwiseQuotient(norm * own).cwiseMin(1.0).array();
 }
 
+VectorXd Predictor::far_from_measured(const MeasuredMode& measured, const SolvedState& state, double width) const {
+  const Index n = state.modes.s.size();
+  VectorXd steps = VectorXd::Zero(n);
+  if (measured.frequency >= 0)
+    for (Index j = 0; j < n; ++j) {
+      const double f = state.modes.frequency_Hz(j);
+      if (!(f > 0.0)) continue;
+      const double distance = std::abs(std::log(f / measured.frequency_Hz)) / width;
+      steps[j] += std::min(distance, kFarSteps) + kFarther * distance + kUncrossed * distance * distance;
+    }
+  // What dampers add tells close modes apart where no shape was measured; a factor e is what structural damping leaves open.
+  if (measured.damping < 0 || !state.state.damped()) return steps;
+  const double own = structural_damping(map_.damping_name(measured.label, measured.condition));
+  for (Index j = 0; j < n; ++j) {
+    const double total = std::max(own + 100.0 * state.modes.damping(j), kLeastDamping * own);
+    steps[j] += std::min(std::abs(std::log(total) - map_.values_[measured.damping]), kFarDamping);
+  }
+  return steps;
+}
+
 void Predictor::pair(const std::vector<int>& conditions) {
   SolvedState& state = solved(conditions.front());
   const Index n = state.modes.s.size();
@@ -123,36 +149,28 @@ void Predictor::pair(const std::vector<int>& conditions) {
   // quiet day and its neighbour at a large amplitude.
   std::vector<std::string> labels;
   std::map<std::string, VectorXd> cost, by_shape;
+  std::map<std::string, double> cost_of_none;
   std::vector<std::size_t> here;
   for (std::size_t m = 0; m < map_.modes_.size(); ++m) {
     const MeasuredMode& measured = map_.modes_[m];
     if (std::find(conditions.begin(), conditions.end(), measured.condition) == conditions.end()) continue;
     here.push_back(m);
     VectorXd& sum = cost.try_emplace(measured.label, VectorXd::Zero(n)).first->second;
+    double& open = cost_of_none[measured.label];
+    open += measured.real_rows.size() >= 2 ? kNoCounterpart : kNever;
     if (std::find(labels.begin(), labels.end(), measured.label) == labels.end()) labels.push_back(measured.label);
     const bool first = map_.features().conditions[static_cast<std::size_t>(measured.condition)].state == map_.states_.front();
-    const double width = first ? kFrequencyWidth : kChangedWidth;
-    if (measured.frequency >= 0)
-      for (Index j = 0; j < n; ++j) {
-        const double f = state.modes.frequency_Hz(j);
-        if (!(f > 0.0)) continue;
-        const double distance = std::abs(std::log(f / measured.frequency_Hz)) / width;
-        sum[j] += std::min(distance, kFarSteps) + kFarther * distance + kUncrossed * distance * distance;
-      }
-    // What dampers add tells close modes apart where no shape was measured; a factor e is what structural damping leaves open.
-    if (measured.damping >= 0 && state.state.damped()) {
-      const double own = structural_damping(map_.damping_name(measured.label, measured.condition));
-      for (Index j = 0; j < n; ++j) {
-        const double total = std::max(own + 100.0 * state.modes.damping(j), kLeastDamping * own);
-        sum[j] += std::min(std::abs(std::log(total) - map_.values_[measured.damping]), kFarDamping);
-      }
-    }
+    sum += far_from_measured(measured, state, first ? kFrequencyWidth : kChangedWidth);
+    if (measured.damping >= 0 && state.state.damped()) open += 0.5 * kFarDamping;
     // Shapes are known from this condition, or from another in which the label was measured with one.
     const MeasuredMode& shaped = shaped_like(measured);
     // Names of modes that are bound to the model's are those of the first state.
     const auto bound = first ? map_.bound_modes_.find(measured.label) : map_.bound_modes_.end();
     if (shaped.real_rows.size() >= 2) {
-      sum += (measured.real_rows.size() >= 2 ? kShapeHere : kShapeElsewhere) * unlike_measured(shaped, state);
+      VectorXd unlike = unlike_measured(shaped, state);
+      for (double& u : unlike)
+        if (u > 1.0 - kLeastAlike && u <= 1.0) u = 2.0 * kNoCounterpart / kShapeHere;
+      sum += (measured.real_rows.size() >= 2 ? kShapeHere : kShapeElsewhere) * unlike;
     } else if (bound != map_.bound_modes_.end() && bound->second < map_.model().mode_coordinates.cols()) {
       // No shape tells: the mode of the structure as it stands that the label was given, followed by the likeness of shapes.
       VectorXd& unlike = by_shape[measured.label];
@@ -160,12 +178,17 @@ void Predictor::pair(const std::vector<int>& conditions) {
       sum += kBoundShape * unlike;
     }
   }
-  Eigen::MatrixXd gain(static_cast<Index>(labels.size()), n);
-  for (std::size_t i = 0; i < labels.size(); ++i) gain.row(static_cast<Index>(i)) = -cost.at(labels[i]);
+  const Index count = std::ssize(labels);
+  Eigen::MatrixXd gain(count, n + count);  // the last columns: none of the model's
+  for (Index i = 0; i < count; ++i) {
+    const std::string& label = labels[static_cast<std::size_t>(i)];
+    gain.row(i) << -cost.at(label).transpose(), Eigen::RowVectorXd::Constant(count, -cost_of_none.at(label));
+  }
   const std::vector<int> chosen = matching::best_assignment(gain);
   for (const std::size_t m : here) {
     const auto at = std::find(labels.begin(), labels.end(), map_.modes_[m].label) - labels.begin();
-    out_.paired[m] = chosen[static_cast<std::size_t>(at)];
+    const int mode = chosen[static_cast<std::size_t>(at)];
+    out_.paired[m] = mode < n ? mode : -1;
   }
 }
 

@@ -282,7 +282,9 @@ int Predictor::mode_of_shape(const MeasuredMode& measured, std::size_t position)
 void Predictor::predict_mode(const MeasuredMode& measured, std::size_t position) {
   const int chosen = out_.paired[position];
   if (chosen < 0) {
-    out_.valid = false;  // fewer computed modes than measured ones
+    for (const int row : {measured.frequency, measured.damping})
+      if (row >= 0) out_.open.push_back(row);
+    leave_shape_open(measured);
     return;
   }
   SolvedState& state = solved(measured.condition);
@@ -297,7 +299,15 @@ void Predictor::predict_mode(const MeasuredMode& measured, std::size_t position)
     differentiate_mode(measured, state, chosen, damping_name, own, total);
   if (measured.real_rows.empty()) return;
   const int shape_of = mode_of_shape(measured, position);
-  if (shape_of >= 0) predict_shape(measured, state, shape_of);
+  if (shape_of >= 0)
+    predict_shape(measured, state, shape_of);
+  else
+    leave_shape_open(measured);
+}
+
+void Predictor::leave_shape_open(const MeasuredMode& measured) {
+  out_.open.insert(out_.open.end(), measured.real_rows.begin(), measured.real_rows.end());
+  out_.open.insert(out_.open.end(), measured.imag_rows.begin(), measured.imag_rows.end());
 }
 
 void Predictor::predict_stays() {
@@ -363,7 +373,8 @@ Prediction Predictor::run() {
       known->push_back(condition);
   }
   for (const auto& group : alike) pair(group);
-  for (std::size_t m = 0; m < modes; ++m) predict_mode(map_.modes_[m], m);  // one that is left over says nothing of the others
+  for (std::size_t m = 0; m < modes; ++m) predict_mode(map_.modes_[m], m);
+  out_.valid = modes == 0 || std::any_of(out_.paired.begin(), out_.paired.end(), [](int mode) { return mode >= 0; });
   if (!out_.valid) return out_;
   for (std::size_t c = 0; c < loaded.size(); ++c)
     if (loaded[c]) predict_load(static_cast<int>(c));
@@ -387,6 +398,8 @@ std::map<std::string, VectorXd> Predictor::node_motion() {
       const std::string name = node.id + (node.directions.cols() == 3 ? std::string(" ") + "xyz"[d] : "");
       VectorXd values(modes);
       for (Index m = 0; m < modes; ++m) {
+        values[m] = 0.0;
+        if (prediction.paired[static_cast<std::size_t>(m)] < 0) continue;
         SolvedState& state = solved(map_.modes_[static_cast<std::size_t>(m)].condition);
         const VectorXcd phi = state.modes.shapes.col(prediction.paired[static_cast<std::size_t>(m)]);
         values[m] = std::abs(sliced(node.directions, d, state.columns, phi.size()).cast<Complex>().dot(phi));

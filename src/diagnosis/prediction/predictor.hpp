@@ -139,6 +139,8 @@ class Predictor {
   [[nodiscard]] const MeasuredMode& shaped_like(const MeasuredMode& measured) const;
   /// 1 - MAC of each mode of a state with a measured shape (n_modes).
   [[nodiscard]] Eigen::VectorXd unlike_measured(const MeasuredMode& shaped, const SolvedState& state);
+  /// Steps of frequency and damping between a measured mode and each mode of a state (n_modes).
+  [[nodiscard]] Eigen::VectorXd far_from_measured(const MeasuredMode& measured, const SolvedState& state, double width) const;
   /// The same with a mode of the structure as it stands, by the whole shape (n_modes).
   [[nodiscard]] Eigen::VectorXd unlike_bound(int position, const SolvedState& state) const;
 
@@ -159,6 +161,8 @@ class Predictor {
   [[nodiscard]] int mode_of_shape(const MeasuredMode& measured, std::size_t position) const;
   struct ScaledShape;
   [[nodiscard]] ScaledShape scaled_shape(const MeasuredMode& measured, const SolvedState& state, Eigen::Index mode);
+  /// Rows of a measured shape that is none of the model's.
+  void leave_shape_open(const MeasuredMode& measured);
   void predict_shape(const MeasuredMode& measured, SolvedState& state, Eigen::Index mode);
   void differentiate_shape(const MeasuredMode& measured, SolvedState& state, Eigen::Index mode, const ScaledShape& shape);
 

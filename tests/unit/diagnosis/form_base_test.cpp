@@ -115,81 +115,17 @@ TEST(WithFormError, AddsErrorsWhoseVarianceGoesWithTheSquareOfTheLevel) {
   EXPECT_LT((added(0.01, 0.02) - frequency - shape).norm(), 1e-9 * shape.norm());
 }
 
-/// Ten masses and eight measured modes; the shape of mode m is replaced by one that moves the channels in turn up and down, as
-/// the tenth does.
-FeatureSet with_strangers(const Chain& chain, const std::vector<std::string>& modes) {
-  FeatureSet f = none_held_out(chain.measure(chain.as_modelled()));
-  for (auto& row : f.rows) {
-    if (row.type != RowType::shape || std::find(modes.begin(), modes.end(), row.mode) == modes.end()) continue;
-    const int turn = row.channel % 2 == 0 ? 1 : -1;
-    row.value = turn * std::sin((row.channel + 1) * std::numbers::pi / 11.0) + (row.mode == modes.front() ? 0.0 : 0.2 * turn);
-  }
-  return f;
-}
-
-diagnosis::FitGround ground_of(const Examined& e) {
+diagnosis::FormLevel level_of(const Examined& e) {
   const auto prior = e.map->base(VectorXd::Zero(std::ssize(e.map->nuisances())));
-  return diagnosis::ground_of_fits(*e.inference, prior, e.map->predict(prior, {}, false).g);
+  return diagnosis::level_of_fits(*e.inference, prior, e.map->predict(prior, {}, false).g);
 }
 
-TEST(GroundOfFits, AModeLikeNoneOfTheModelCountsForNothing) {
+TEST(LevelOfFits, StandsALargerErrorWhereTheModelIsFarOff) {
   const Chain chain({.masses = 10, .modes = 8});
-  const Examined e = examine(chain, with_strangers(chain, {"3"}), catalogue({"gain"}));
-  const auto ground = ground_of(e);
-  EXPECT_EQ(ground.strangers.labels, std::vector<std::string>{"3"});
-  EXPECT_EQ(ground.strangers.rows.size(), 11u);  // ten channels and the frequency
-  EXPECT_EQ(ground.strangers.shapes, 1);
-  EXPECT_EQ(ground.level.frequency, 0.01);  // the others are those of the model
-  for (std::size_t r = 0; r < e.map->features().rows.size(); ++r) {
-    const double more = ground.known.covariance()(static_cast<Index>(r), static_cast<Index>(r)) -
-                        e.map->covariance()(static_cast<Index>(r), static_cast<Index>(r));
-    if (e.map->features().rows[r].mode == "3")
-      EXPECT_GT(more, 50.0) << r;
-    else
-      EXPECT_EQ(more, 0.0) << r;
-  }
-  // A diagnosis says so, and what is left shows nothing.
-  const auto result = diagnosis::diagnose_with_form(*e.inference, {}, 1);
-  EXPECT_EQ(result.verdict, diagnosis::Verdict::none) << result.message;
-  ASSERT_TRUE(result.form);
-  const auto tells = [](const std::string& warning) {
-    return warning.find("resembles the measured mode 3:") != std::string::npos;
-  };
-  EXPECT_TRUE(std::any_of(result.form->warnings.begin(), result.form->warnings.end(), tells));
-}
-
-TEST(GroundOfFits, WhereMoreThanAQuarterAreStrangersNoneIsSetAside) {
-  const Chain chain({.masses = 10, .modes = 8});
-  EXPECT_TRUE(ground_of(examine(chain, with_strangers(chain, {"2", "3", "4"}), catalogue({"gain"}))).strangers.labels.empty());
-}
-
-TEST(GroundOfFits, AStrangerMeasuredAgainIsOne) {
-  const Chain chain({.masses = 10, .modes = 8});
-  const FeatureSet one = with_strangers(chain, {"3"});
-  const auto ground = ground_of(examine(
-      chain, measured_twice(one, one, [](auto&, diagnosis::Condition& second) { second.people = 5.0; }), catalogue({"gain"})));
-  EXPECT_EQ(ground.strangers.labels, std::vector<std::string>{"3"});
-  EXPECT_EQ(ground.strangers.rows.size(), 22u);
-  EXPECT_EQ(ground.strangers.shapes, 2);
-}
-
-TEST(GroundOfFits, StandsALargerErrorWhereTheModelIsFarOff) {
-  const Chain chain({.masses = 10, .modes = 8});
-  EXPECT_EQ(ground_of(examine(chain, none_held_out(chain.measure(chain.as_modelled())), catalogue({"gain"}))).level.shape,
-            0.01);
+  EXPECT_EQ(level_of(examine(chain, none_held_out(chain.measure(chain.as_modelled())), catalogue({"gain"}))).shape, 0.01);
   ChainTruth off = chain.as_modelled();
   for (int s = 0; s <= 10; ++s) off.spring[s] = s % 3 == 0 ? 0.45 : 1.9;
-  EXPECT_GT(ground_of(examine(chain, none_held_out(chain.measure(off)), catalogue({"gain"}))).level.shape, 0.01);
-}
-
-TEST(DiagnoseWithForm, SaysWhereTheModelPredictsNoneOfTheRows) {
-  const Chain chain({.masses = 3, .modes = 3});
-  FeatureSet f = none_held_out(chain.measure(chain.as_modelled()));
-  f.rows.push_back({RowType::frequency, "another", -1, "", 0, 9.0, 0.1, false});  // four modes of three masses
-  const auto result = diagnosis::diagnose_with_form(*examine(chain, f, catalogue({"gain"})).inference, {}, 1);
-  EXPECT_EQ(result.verdict, diagnosis::Verdict::unknown);
-  EXPECT_EQ(result.message, "the model predicts none of these rows");
-  EXPECT_TRUE(result.effects.empty());
+  EXPECT_GT(level_of(examine(chain, none_held_out(chain.measure(off)), catalogue({"gain"}))).shape, 0.01);
 }
 
 }  // namespace

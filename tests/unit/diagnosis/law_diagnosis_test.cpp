@@ -4,6 +4,8 @@
 
 #include <gtest/gtest.h>
 
+#include <numbers>
+
 #include "chain.hpp"
 #include "core/error.hpp"
 #include "diagnosis/form_frame.hpp"
@@ -53,7 +55,7 @@ TEST(LawSearch, PriorOddsOfEachClassOfCausesAreShared) {
     (entry.candidate->hypothesis->measurement ? channels : everywhere) += std::exp(entry.log_prior);
     if (entry.candidate->hypothesis->id == "mass") masses += std::exp(entry.log_prior);
   }
-  EXPECT_NEAR(std::log(channels), 0.0, 1e-9);
+  EXPECT_NEAR(std::log(channels), std::log(0.1), 1e-9);
   EXPECT_NEAR(std::log(everywhere), diagnosis::DiagnoseOptions{}.static_odds, 1e-9);
   EXPECT_NEAR(masses / everywhere, 0.5, 1e-9);  // two families
 }
@@ -73,6 +75,71 @@ TEST(LawSearch, ExchangedChannelsAreTheSameRowsUnderOtherNamesToTheLaw) {
   EXPECT_TRUE(leader.refined());
   EXPECT_NEAR(leader.evidence.log_evidence, of_right.none.log_evidence, 0.05);
   EXPECT_GT(leader.log_weight, of_wrong.none.log_evidence + 20.0);
+}
+
+/// The shape of a measured mode is replaced by one in which a single mass moves: its MAC with any mode of the chain is below
+/// 0.2.
+diagnosis::FeatureSet with_a_stranger(const Chain& chain, const ChainTruth& truth, const std::string& mode,
+                                      std::mt19937_64& random) {
+  diagnosis::FeatureSet f = no_row_held_out(chain.measure(truth, &random));
+  for (auto& row : f.rows)
+    if (row.type == diagnosis::RowType::shape && row.mode == mode) row.value = row.channel == 4 ? 1.0 : 0.0;
+  return f;
+}
+
+TEST(DiagnoseByLaw, AMeasuredModeThatIsNoneOfTheModelsDecidesNothingAndIsTold) {
+  const Chain chain({.masses = 10, .modes = 8});
+  std::mt19937_64 random(5);
+  const auto sound =
+      by_law(examine(chain, with_a_stranger(chain, chain.as_modelled(), "3", random), catalogue({"mass", "gain"})));
+  EXPECT_EQ(sound.verdict, diagnosis::Verdict::none) << sound.message;
+  ASSERT_TRUE(sound.form);
+  const auto tells = [](const std::string& warning) { return warning.find("is the measured mode 3 (") != std::string::npos; };
+  EXPECT_TRUE(std::any_of(sound.form->warnings.begin(), sound.form->warnings.end(), tells));
+  EXPECT_EQ(sound.before.all.open.size(), 11U);  // ten channels and the frequency
+  for (const int row : sound.before.all.open) EXPECT_EQ(sound.before.all.jacobian.row(row).cwiseAbs().maxCoeff(), 0.0) << row;
+}
+
+TEST(DiagnoseByLaw, SaysWhereTheModelHasNoneOfTheModes) {
+  const Chain chain({.masses = 10, .modes = 2});
+  std::mt19937_64 random(5);
+  diagnosis::FeatureSet f = with_a_stranger(chain, chain.as_modelled(), "1", random);
+  std::erase_if(f.rows, [](const auto& row) { return row.mode != "1"; });
+  const auto result = by_law(examine(chain, f, catalogue({"gain"})));
+  EXPECT_EQ(result.verdict, diagnosis::Verdict::unknown);
+  EXPECT_EQ(result.message, "the model predicts none of these rows");
+}
+
+TEST(LawFrame, AChangeThatTurnsIsAsNearAsOneThatDoesNot) {
+  // Three levels of a contrast, in the ratio 0 : 1 : 2: variances grow along it, and increments are independent of one another.
+  const Chain chain({.masses = 10, .modes = 5});
+  diagnosis::FeatureSet f = no_row_held_out(chain.measure(chain.as_modelled()));
+  const auto first = f.rows;
+  for (const double people : {1.0, 2.0}) {
+    f.conditions.push_back(f.conditions.front());
+    f.conditions.back().name = people > 1.0 ? "two" : "one";
+    f.conditions.back().people = people;
+    for (auto row : first) {
+      row.condition = static_cast<int>(f.conditions.size()) - 1;
+      f.rows.push_back(row);
+    }
+  }
+  f.conditions.front().people = 0.0;
+  const Examined e = examine(chain, f, catalogue({"gain"}));
+  const auto contrasts = diagnosis::contrasts_of(e.map->features());
+  ASSERT_EQ(contrasts.size(), 1U);
+  const auto system = diagnosis::law_system(*e.inference, e.inference->fit({}, {}), contrasts);
+  const Eigen::MatrixXd& columns = system.classes.at(diagnosis::kFirstContrast);
+  std::vector<Eigen::Index> frequency;  // of one mode in each condition
+  for (std::size_t r = 0; r < f.rows.size(); ++r)
+    if (f.rows[r].type == diagnosis::RowType::frequency && f.rows[r].mode == first.front().mode)
+      frequency.push_back(static_cast<Eigen::Index>(r));
+  ASSERT_EQ(frequency.size(), 3U);
+  const Eigen::MatrixXd covariance = (columns * columns.transpose())(frequency, frequency);
+  EXPECT_NEAR(covariance(0, 0), 0.0, 1e-12);
+  EXPECT_NEAR(covariance(2, 2), 1e-4, 1e-9);  // 1 % at the end of the contrast
+  EXPECT_NEAR(covariance(1, 1), 0.5e-4, 1e-9);
+  EXPECT_NEAR(covariance(1, 2), covariance(1, 1), 1e-9);
 }
 
 TEST(DiagnoseByLaw, SaysNoneOfDataOfTheModelItself) {

@@ -1,0 +1,229 @@
+#include "diagnosis/law_screen.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <numbers>
+
+#include "core/parallel.hpp"
+#include "diagnosis/form_frame.hpp"
+#include "diagnosis/form_magnitudes.hpp"
+#include "linalg/dense.hpp"
+
+namespace twindeck::diagnosis {
+
+namespace {
+
+using Eigen::Index;
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+const double kOddsOfAChange = std::log(0.1);  // of all causes of a contrast against nothing, of "something else", of channels
+constexpr double kLeftPart = 0.1;             // of a cause's effect: scale of what it leaves over in its contrast …
+constexpr double kPerCent = 100.0;            // units of a class in a relative effect
+const double kShrinks[] = {0.0, 1.5, 3.0};    // of ln tau: a large cause leaves smaller errors than nothing does
+constexpr double kShows = 1e-3;               // deviations: below, these rows show nothing of an entry
+
+double log_sum_of(const VectorXd& v) {
+  const double top = v.maxCoeff();
+  return top + std::log((v.array() - top).exp().sum());
+}
+
+/// Scales at which entries are looked at, with the volume of Laplace's approximation.
+struct ScreenPoint {
+  VectorXd tau;
+  double log_volume = 0.0;
+  int contrast = -1;
+};
+
+double volume_of(const LawEvidence& evidence, double value) { return evidence.log_evidence - value; }
+
+class Screen {
+ public:
+  Screen(const LawSetting& setting, LawSearch& search, const OneLaw& law)
+      : setting_(setting),
+        search_(search),
+        law_(law),
+        residual_(law.whitened(search.system.residual)),
+        signatures_(law.whitened(search.system.signatures)) {}
+
+  /// The modes of nothing and of something else.
+  void weigh_nothing() {
+    LawHypothesis none{search_.system.residual,        VectorXd::Zero(1), MatrixXd(search_.system.residual.size(), 0), {}, {},
+                       lasting_classes(search_.system)};
+    search_.none = law_.scored(none, VectorXd::Ones(law_.classes()));
+    add_point(search_.none, law_.log_posterior(none, search_.none.tau), -1);
+    search_.something_else.resize(setting_.contrasts.size());
+    std::vector<double> value(setting_.contrasts.size());
+    parallel_for(setting_.contrasts.size(), [&](std::size_t c) {
+      LawHypothesis other = none;
+      other.active.push_back({kFirstContrast + static_cast<int>(c), 1.0});
+      search_.something_else[c] = law_.scored(other, search_.none.tau);
+      value[c] = law_.log_posterior(other, search_.something_else[c].tau);
+    });
+    for (std::size_t c = 0; c < value.size(); ++c) {
+      search_.else_weight.push_back(search_.something_else[c].log_evidence + kOddsOfAChange);
+      add_point(search_.something_else[c], value[c], static_cast<int>(c));
+    }
+  }
+
+  /// Every entry alone, its magnitudes summed over, at the best of the points.
+  void weigh_entries() {
+    search_.accounts.resize(search_.entries.size());
+    for (std::size_t i = 0; i < search_.entries.size(); ++i) {
+      search_.accounts[i].members = {static_cast<int>(i)};
+      search_.accounts[i].log_prior = search_.entries[i].log_prior;
+    }
+    for (const ScreenPoint& point : points_) {
+      const OneLaw::Point at = law_.at(point.tau);
+      if (at.lower.size() == 0) continue;
+      const VectorXd residual = linalg::lower_solve(at.lower, residual_);
+      const MatrixXd signatures = linalg::lower_solve(at.lower, signatures_);
+      const VectorXd along = signatures.transpose() * residual, square = signatures.colwise().squaredNorm();
+      parallel_for(search_.accounts.size(), [&](std::size_t i) {
+        const LawEntry& entry = search_.entries[i];
+        if (entry.contrast != point.contrast) return;
+        LawAccount& account = search_.accounts[i];
+        const std::vector<double> factors = magnitude_factors(*entry.candidate);
+        VectorXd terms(std::ssize(entry.tried) * std::ssize(factors));
+        Index k = 0;
+        for (std::size_t m = 0; m < entry.tried.size(); ++m)
+          for (const double t : factors) {
+            const Index s = entry.first_signature + static_cast<Index>(m);
+            terms[k++] = t * along[s] - 0.5 * t * t * square[s] + prior_of(point, t * entry.effects[m]);
+          }
+        const double value = log_sum_of(terms) - std::log(static_cast<double>(terms.size())) -
+                             0.5 * (residual.squaredNorm() + at.log_determinant) + point.log_volume;
+        if (!(value + account.log_prior > account.log_weight)) return;
+        account.log_weight = value + account.log_prior;
+        account.evidence.tau = point.tau;
+        account.evidence.log_evidence = value;
+        Index best = 0;
+        terms.maxCoeff(&best);
+        const auto factor = static_cast<std::size_t>(best) % factors.size(),
+                   tried = static_cast<std::size_t>(best) / factors.size();
+        account.causes = {{entry.candidate, entry.tried[tried].a}};
+        if (is_a_size(*entry.candidate))
+          account.causes.front().a[0] = scaled_magnitude(*entry.candidate, account.causes.front().a[0], factors[factor]);
+        account.effect = factors[factor] * entry.effects[tried];
+        account.evidence.chi_squared = residual.squaredNorm() - 2.0 * terms[best];
+      });
+    }
+  }
+
+ private:
+  /// A mode and the same errors made smaller; of nothing also with a little left over in each contrast.
+  void add_point(const LawEvidence& evidence, double value, int contrast) {
+    if (evidence.tau.size() == 0) return;
+    for (const double shrink : kShrinks) {
+      points_.push_back({std::exp(-shrink) * evidence.tau, volume_of(evidence, value), contrast});
+      if (contrast >= 0) continue;
+      for (std::size_t c = 0; c < setting_.contrasts.size(); ++c) {
+        ScreenPoint with = points_.back();
+        with.contrast = static_cast<int>(c);
+        with.tau[kFirstContrast + static_cast<int>(c)] = kLeastLeft;
+        with.log_volume += 0.5 * std::log(2.0 * std::numbers::pi);
+        points_.push_back(with);
+      }
+    }
+  }
+
+  /// ln prior of a point's scales beside an effect.
+  [[nodiscard]] double prior_of(const ScreenPoint& point, double effect) const {
+    double sum = 0.0;
+    for (Index c = 0; c < point.tau.size(); ++c)
+      if (point.tau[c] > 0.0) sum += log_half_t(std::log(point.tau[c]), c >= kFirstContrast ? left_scale(effect) : 1.0);
+    return sum;
+  }
+
+  const LawSetting& setting_;
+  LawSearch& search_;
+  const OneLaw& law_;
+  MatrixXd residual_, signatures_;
+  std::vector<ScreenPoint> points_;
+};
+
+}  // namespace
+
+// A wrong label of a mode looks like an error of the form.
+bool is_of_a_channel(const Candidate& candidate) { return candidate.hypothesis->measurement && !candidate.channels.empty(); }
+
+std::vector<ActiveClass> lasting_classes(const LawSystem& system) {
+  std::vector<ActiveClass> out;
+  for (int c = 0; c < kFirstContrast; ++c)
+    if (system.classes[static_cast<std::size_t>(c)].cols() > 0) out.push_back({c, 1.0});
+  return out;
+}
+
+double left_scale(double effect) { return std::max(kLeastLeft, kLeftPart * kPerCent * effect); }
+
+double effect_on(const Inference& inference, const VectorXd& change, const std::vector<bool>& acts) {
+  double sum = 0.0;
+  int rows = 0;
+  for (const int r : inference.training()) {
+    const Row& row = inference.map().features().rows[static_cast<std::size_t>(r)];
+    if (row.type != RowType::frequency || !acts[static_cast<std::size_t>(row.condition)]) continue;
+    sum += change[r] * change[r];
+    ++rows;
+  }
+  return rows > 0 ? std::sqrt(sum / rows) : 0.0;
+}
+
+std::vector<bool> acting_conditions(const LawSetting& setting, const Candidate& candidate, int contrast) {
+  const FeatureSet& features = setting.plain.map().features();
+  std::vector<bool> out;
+  for (std::size_t c = 0; c < features.conditions.size(); ++c)
+    out.push_back(!candidate.state.empty() ? candidate.acts_in(features.conditions[c])
+                  : contrast < 0           ? true
+                                 : setting.contrasts[static_cast<std::size_t>(contrast)].weight[static_cast<Index>(c)] != 0.0);
+  return out;
+}
+
+void collect_entries(const LawSetting& setting, LawSearch& search) {
+  const auto& candidates = setting.plain.candidates();
+  std::vector<LawEntry> all(candidates.size());
+  parallel_for(candidates.size(), [&](std::size_t i) {
+    all[i].candidate = candidates[i].get();
+    all[i].contrasts = contrasts_of(*candidates[i], setting.contrasts);
+    all[i].contrast = all[i].contrasts.empty() ? -1 : all[i].contrasts.front();
+    all[i].tried = setting.informed.tried(search.base, *candidates[i]);
+  });
+  std::map<std::pair<bool, int>, double> share;  // of a class of causes: channels, or by contrast
+  const auto class_of = [](const LawEntry& e) { return std::pair(is_of_a_channel(*e.candidate), e.contrast); };
+  std::vector<VectorXd> columns;
+  for (LawEntry& entry : all) {
+    const auto shows = [&](const Inference::Tried& t) {
+      return setting.informed.whitened(search.base, t.change).norm() > kShows;
+    };
+    if (std::none_of(entry.tried.begin(), entry.tried.end(), shows)) continue;
+    const std::vector<bool> acts = acting_conditions(setting, *entry.candidate, entry.contrast);
+    entry.first_signature = std::ssize(columns);
+    for (const Inference::Tried& tried : entry.tried) {
+      entry.effects.push_back(effect_on(setting.plain, tried.change, acts));
+      columns.emplace_back(tried.change(setting.plain.training()));
+    }
+    share[class_of(entry)] += std::exp(entry.candidate->log_prior);
+    search.entries.push_back(std::move(entry));
+  }
+  for (LawEntry& entry : search.entries) {
+    const bool everywhere = entry.contrast < 0 && !is_of_a_channel(*entry.candidate);
+    entry.log_prior =
+        entry.candidate->log_prior - std::log(share.at(class_of(entry))) + (everywhere ? setting.static_odds : kOddsOfAChange);
+  }
+  search.system.signatures.resize(std::ssize(setting.plain.training()), std::ssize(columns));
+  for (std::size_t k = 0; k < columns.size(); ++k) search.system.signatures.col(static_cast<Index>(k)) = columns[k];
+}
+
+void screen_by_law(const LawSetting& setting, LawSearch& search, const OneLaw& law) {
+  Screen screen(setting, search, law);
+  screen.weigh_nothing();
+  screen.weigh_entries();
+  sort_accounts(search.accounts);
+}
+
+void sort_accounts(std::vector<LawAccount>& accounts) {
+  std::stable_sort(accounts.begin(), accounts.end(),
+                   [](const LawAccount& a, const LawAccount& b) { return a.log_weight > b.log_weight; });
+}
+
+}  // namespace twindeck::diagnosis

@@ -1,0 +1,27 @@
+#pragma once
+
+#include "diagnosis/law_search.hpp"
+
+/// Private to src/diagnosis: entries of the catalogue at a base, each weighed by the one law at a few choices of its scales.
+namespace twindeck::diagnosis {
+
+constexpr double kLeastLeft = 0.1;  ///< scale of what a cause leaves over in its contrast, in units of the class, at least
+
+/// Scale of what a cause leaves over. @param effect  RMS change of its frequencies, ln
+[[nodiscard]] double left_scale(double effect);
+
+/// RMS change of the frequencies in the conditions where something acts.
+[[nodiscard]] double effect_on(const Inference& inference, const Eigen::VectorXd& change, const std::vector<bool>& acts);
+
+/// (n_conditions)
+[[nodiscard]] std::vector<bool> acting_conditions(const LawSetting& setting, const Candidate& candidate, int contrast);
+
+/// Fills entries, and the signatures of the base's system.
+void collect_entries(const LawSetting& setting, LawSearch& search);
+
+/// Weighs nothing, something else, and every entry alone, its magnitudes summed over: the accounts, the best first.
+void screen_by_law(const LawSetting& setting, LawSearch& search, const OneLaw& law);
+
+void sort_accounts(std::vector<LawAccount>& accounts);
+
+}  // namespace twindeck::diagnosis
