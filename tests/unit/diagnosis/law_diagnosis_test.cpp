@@ -183,8 +183,9 @@ TEST(DiagnoseByLaw, FindsWhatWasCutBetweenTwoStatesWithItsSize) {
   const ChainTruth before = chain.scattered(random);
   ChainTruth after = before;
   after.spring[6] *= 0.4;
-  const auto result =
-      by_law(examine(chain, before_and_after(chain.measure(before, &random), chain.measure(after, &random)), catalogue()));
+  const Examined e =
+      examine(chain, before_and_after(chain.measure(before, &random), chain.measure(after, &random)), catalogue());
+  const auto result = by_law(e);
   ASSERT_FALSE(result.effects.empty()) << result.message;
   EXPECT_TRUE(is_in_a_set(result, "stiffness@group:g6"));
   EXPECT_EQ(result.effects.front().cause.candidate->state, "after");
