@@ -22,11 +22,16 @@ struct HeldOutBlock {
   int rows = 0;
 };
 
-/// The held-out rows by mode or record of one condition: entries of one shape share errors, they stay together.
-std::map<std::string, HeldOutBlock> held_out_blocks(const Inference& inference, const VectorXd& before, const VectorXd& after) {
+/// The held-out rows by mode or record of one condition: entries of one shape share errors, they stay together. A row that one
+/// of the fits leaves open is predicted by neither.
+std::map<std::string, HeldOutBlock> held_out_blocks(const Inference& inference, const Fit& fit_before, const Fit& fit_after) {
+  const VectorXd before = standardised_residuals(inference, fit_before), after = standardised_residuals(inference, fit_after);
+  std::set<int> open(fit_before.all.open.begin(), fit_before.all.open.end());
+  open.insert(fit_after.all.open.begin(), fit_after.all.open.end());
   const auto& features = inference.map().features();
   std::map<std::string, HeldOutBlock> by_name;
   for (const int r : inference.held_out()) {
+    if (open.contains(r)) continue;
     const Row& row = features.rows[static_cast<std::size_t>(r)];
     const std::string& condition = features.conditions[static_cast<std::size_t>(row.condition)].name;
     HeldOutBlock& block = by_name[condition + "/" + (row.mode.empty() ? name_of(row.type) : row.mode)];
@@ -98,21 +103,21 @@ VectorXd standardised_residuals(const Inference& inference, const Fit& fit) {
 
 Gain held_out_gain(const Inference& inference, const Fit& before, const Fit& after, int bootstrap, std::uint64_t seed) {
   Gain gain;
-  gain.rows = static_cast<int>(inference.held_out().size());
-  if (gain.rows == 0) {
+  const std::map<std::string, HeldOutBlock> by_name = held_out_blocks(inference, before, after);
+  if (by_name.empty()) {
     gain.held_out = "no row was held out";
     return gain;
   }
   gain.held_out = list_of_held_out(inference);
   std::vector<HeldOutBlock> blocks;
   HeldOutBlock sum;
-  for (const auto& [name, block] :
-       held_out_blocks(inference, standardised_residuals(inference, before), standardised_residuals(inference, after))) {
+  for (const auto& [name, block] : by_name) {
     blocks.push_back(block);
     sum.before += block.before;
     sum.after += block.after;
     sum.rows += block.rows;
   }
+  gain.rows = sum.rows;
   gain.before = std::sqrt(sum.before / sum.rows);
   gain.after = std::sqrt(sum.after / sum.rows);
   gain.reduction_pct = reduction_pct(sum);
