@@ -137,8 +137,8 @@ TIER ?= features
 SEED ?= 1
 WITH ?=
 BLIND = $(if $(filter features,$(TIER)),blind_trials,$(if $(filter form,$(TIER)),blind_form,blind_records))
-BLIND_LAST = $(if $(filter form,$(TIER)),results/blind/form_$(SEED)_$(N).csv,$(filter-out features,$(TIER)))$(if $(filter on,$(FORM)),--form)
-blind-trials: build ## make blind-trials N=400 TIER=features, form, exam, chain or time (FORM=on: features, and the model's form may be wrong; exam and chain: from raw records, WITH="…" for their options): hidden effects looked for, scored with intervals
+BLIND_LAST = $(if $(filter form,$(TIER)),results/blind/form_$(SEED)_$(N).csv,$(filter-out features,$(TIER)))
+blind-trials: build ## make blind-trials N=400 TIER=features, form, exam, chain or time (exam and chain: from raw records, WITH="…" for their options): hidden effects looked for, scored with intervals
 ifneq ($(filter exam chain,$(TIER)),)
 	@$(PRODUCT)workflows/python.sh tests/blind/$(TIER)/$(TIER).py $(BIN) results/$(TIER) $(N) $(SEED) $(WITH)
 else

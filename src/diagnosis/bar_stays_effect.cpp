@@ -78,6 +78,7 @@ void BarStaysEffect::put_first(Diagnosis& result) const {
   if (result.verdict == Verdict::none) {
     result.verdict = Verdict::named;
     result.log_odds = effect_.log_odds;
+    result.probability = effect_.probability;
     result.message = effect_.sentence + ". Beyond that nothing was found";
   } else {
     result.message = effect_.sentence + ". Beyond that: " + result.message;

@@ -3,7 +3,6 @@
 #include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <set>
 
 #include "core/error.hpp"
@@ -21,11 +20,6 @@ constexpr double kScaleDeviation = 10.0;  // of a free shape scale, relative: wi
 constexpr double kUnbounded = 1e3;        // prior deviations
 constexpr double kScaledEnd = 0.25;       // of magnitudes in units of twice their range: its ends
 constexpr double kSlopeStep = 1e-3;       // of a magnitude's range: for derivatives of a fit by differences
-constexpr double kSearchStep = 2e-3;      // the same in the search, where the base is linearised
-constexpr double kLongestStep = 0.35;     // of a magnitude's range in one step on the linearised base
-constexpr double kStartDamping = 1e-3, kDampingFall = 0.2, kDampingRise = 8.0, kDampingAgain = 1e-2;  // Levenberg-Marquardt
-constexpr int kLinearisedSteps = 8, kLinearisedAttempts = 5;  // on the linearised base: the joint fit goes on from there
-constexpr double kLeastFall = 0.02;                           // of chi² in one step: less decides nothing
 
 VectorXd pick(const VectorXd& from, const std::vector<int>& rows) { return from(rows); }
 
@@ -67,45 +61,6 @@ struct Magnitudes {
 
 }  // namespace
 
-double ockham(const MatrixXd& precision, const Candidate& candidate) {
-  const Index k = candidate.low.size();
-  if (k == 0) return 0.0;
-  MatrixXd h = precision;
-  double log_range = 0.0;
-  for (Index i = 0; i < k; ++i) {
-    const double range = candidate.high[i] - candidate.low[i];
-    log_range += std::log(range);
-    h(i, i) += 2.0 * std::numbers::pi / (range * range);  // no narrower than the data make it, no wider than the prior
-  }
-  const VectorXd d = h.ldlt().vectorD();
-  double log_det = 0.0;
-  for (Index i = 0; i < k; ++i) log_det += std::log(std::max(d[i], 1e-300));
-  return std::min(0.5 * static_cast<double>(k) * std::log(2.0 * std::numbers::pi) - 0.5 * log_det - log_range, 0.0);
-}
-
-double chi_squared_tail(double x, double dof) {
-  // Regularised upper incomplete gamma function Q(dof/2, x/2): series or continued fraction (Abramowitz and Stegun 6.5).
-  const double a = 0.5 * dof, z = 0.5 * x;
-  if (z <= 0.0) return 1.0;
-  const double front = std::exp(-z + a * std::log(z) - std::lgamma(a));
-  if (z < a + 1.0) {
-    double term = 1.0 / a, sum = term;
-    for (int n = 1; n < 10000 && std::abs(term) > 1e-16 * sum; ++n) sum += term *= z / (a + n);
-    return std::clamp(1.0 - front * sum, 0.0, 1.0);
-  }
-  double b = z + 1.0 - a, c = 1e300, d = 1.0 / b, h = d;
-  for (int n = 1; n < 10000; ++n) {
-    const double an = -n * (n - a);
-    b += 2.0;
-    d = 1.0 / (an * d + b);
-    c = b + an / c;
-    const double change = d * c;
-    h *= change;
-    if (std::abs(change - 1.0) < 1e-15) break;
-  }
-  return front * h;
-}
-
 Inference::Inference(const FeatureMap& map, const std::vector<std::unique_ptr<Candidate>>& candidates)
     : map_(map), candidates_(candidates) {
   for (std::size_t r = 0; r < map.features().rows.size(); ++r)
@@ -141,7 +96,7 @@ MatrixXd Inference::slopes(const FeatureMap::Base& at, const std::vector<Cause>&
   return out;
 }
 
-Fit Inference::fit(const std::vector<Cause>& causes, const VectorXd& start, int iterations) const {
+Fit Inference::fitted(const std::vector<Cause>& causes, const VectorXd& start, bool moves) const {
   const auto n = static_cast<Index>(map_.nuisances().size());
   Index k = 0;
   for (const Cause& cause : causes) k += cause.a.size();
@@ -183,7 +138,7 @@ Fit Inference::fit(const std::vector<Cause>& causes, const VectorXd& start, int 
   };
   Fit fit;
   updating::JointMapOptions options;
-  if (iterations != 0) options.max_iterations = std::max(iterations, 0);
+  if (!moves) options.max_iterations = 0;
   fit.map = updating::joint_map(predict, y_, sigma_factor_, x0, box, options);
   fit.causes = magnitudes.at(causes, fit.map.x.tail(k));
   fit.base = map_.base(fit.map.x.head(n));
@@ -226,94 +181,28 @@ VectorXd Inference::signature(const Fit& base, const Candidate& candidate, const
   return whitened(base, change(base, candidate, a));
 }
 
-void Inference::fit_linearised(const Fit& base, Scored& scored) const {
-  const Candidate& candidate = *scored.candidate;
-  const Index k = candidate.low.size();
-  scored.stage = 2;
-  VectorXd a = scored.a, s = scored.signature;
-  const auto cost = [&](const VectorXd& signature) { return (base.whitened - signature).squaredNorm(); };
-  double chi_squared = cost(s);
-  const VectorXd range = candidate.high - candidate.low;
-  MatrixXd slope(s.size(), k);
-  double damping = kStartDamping;
-  for (int iteration = 0; iteration < kLinearisedSteps && k > 0; ++iteration) {
-    for (Index i = 0; i < k; ++i) {
-      double step = kSearchStep * range[i];
-      if (a[i] + step > candidate.high[i]) step = -step;
-      VectorXd moved = a;
-      moved[i] += step;
-      const VectorXd there = signature(base, candidate, moved);
-      slope.col(i) = there.size() ? VectorXd((there - s) / step) : VectorXd(VectorXd::Zero(s.size()));
+std::vector<VectorXd> Inference::starts_at(const Fit& base, const Candidate& candidate) const {
+  std::vector<VectorXd> starts = candidate.starts;
+  if (candidate.tuned < 0 || !base.all.valid) return starts;
+  const auto u = static_cast<Index>(candidate.tuned);
+  const auto& modes = map_.measured_modes();
+  for (std::size_t i = 0; i < starts.size(); ++i) {
+    const Tuning& tuning = candidate.tuning[i];
+    for (std::size_t m = 0; m < modes.size(); ++m) {
+      if (tuning.mode.empty() || modes[m].condition != tuning.condition || modes[m].label != tuning.mode) continue;
+      const double f = tuning.factor * base.all.frequency_Hz[m];
+      starts[i][u] =
+          std::clamp(candidate.log[static_cast<std::size_t>(u)] ? std::log(f) : f, candidate.low[u], candidate.high[u]);
     }
-    MatrixXd normal = slope.transpose() * slope;
-    const VectorXd gradient = slope.transpose() * (base.whitened - s);
-    normal.diagonal() += (1e-9 / range.array().square()).matrix();
-    bool moved = false;
-    double fall = 0.0;
-    for (int attempt = 0; attempt < kLinearisedAttempts && !moved; ++attempt) {
-      MatrixXd damped = normal;
-      damped.diagonal() *= 1.0 + damping;
-      VectorXd next = a + VectorXd(damped.ldlt().solve(gradient));
-      next = next.cwiseMax(a - kLongestStep * range)
-                 .cwiseMin(a + kLongestStep * range)
-                 .cwiseMax(candidate.low)
-                 .cwiseMin(candidate.high);
-      const VectorXd there = signature(base, candidate, next);
-      if (there.size() && cost(there) < chi_squared) {
-        fall = chi_squared - cost(there);
-        a = next;
-        s = there;
-        chi_squared = cost(s);
-        damping *= kDampingFall;
-        moved = true;
-      } else {
-        damping = std::max(damping * kDampingRise, kDampingAgain);
-      }
-    }
-    if (!moved || fall < kLeastFall) break;
   }
-  scored.a = a;
-  scored.signature = s;
-  scored.chi_squared = scored.remaining = chi_squared;
-  const MatrixXd precision = slope.transpose() * slope;
-  scored.log_odds = 0.5 * (base.chi_squared - chi_squared) + ockham(precision, candidate) + candidate.log_prior;
-  if (k > 0) {
-    MatrixXd h = precision;
-    h.diagonal() += (12.0 / range.array().square()).matrix();
-    scored.a_covariance = h.ldlt().solve(MatrixXd::Identity(k, k));
-  }
+  return starts;
 }
 
-void Inference::refine(const Fit& base, Scored& scored, const VectorXd& start, int iterations) const {
-  std::vector<Cause> causes = base.causes;
-  causes.push_back({scored.candidate, scored.a});
-  const Fit with = fit(causes, start, iterations);
-  if (!with.made()) return;
-  scored.stage = iterations > 0 && !with.map.status.converged ? 2 : 3;
-  scored.a = with.causes.back().a;
-  scored.x = with.map.x.head(static_cast<Index>(map_.nuisances().size()));
-  if (const VectorXd here = signature(base, *scored.candidate, scored.a); here.size() > 0) scored.signature = here;
-  const Index k = scored.a.size();
-  // The new cause's own part of Sigma_tot is an unknown with a prior, not scatter: evidence is taken without it.
-  const MatrixXd& j = with.map.jacobian;
-  const MatrixXd lower = total_factor_of(sigma_, j.leftCols(j.cols() - k), with.map.scales);
-  if (lower.size() == 0) return;
-  VectorXd x = with.map.x;
-  x.tail(k).setZero();
-  const VectorXd w = lower.triangularView<Eigen::Lower>().solve(y_ - with.map.g + j * x);
-  const double log_det = 2.0 * lower.diagonal().array().log().sum();
-  VectorXd width(k);
-  for (Index i = 0; i < k; ++i) width[i] = 2.0 * (scored.candidate->high[i] - scored.candidate->low[i]);
-  const MatrixXd slope = linalg::lower_solve(lower, j.rightCols(k) * width.cwiseInverse().asDiagonal());
-  const MatrixXd precision = slope.transpose() * slope;
-  scored.chi_squared = scored.remaining = w.squaredNorm();
-  scored.log_odds = 0.5 * (base.chi_squared + base.log_determinant - scored.chi_squared - log_det) +
-                    ockham(precision, *scored.candidate) + scored.candidate->log_prior;
-  if (k > 0) {
-    MatrixXd h = precision;
-    for (Index i = 0; i < k; ++i) h(i, i) += 48.0 / (width[i] * width[i]);
-    scored.a_covariance = h.ldlt().solve(MatrixXd::Identity(k, k));
-  }
+std::vector<Inference::Tried> Inference::tried(const Fit& base, const Candidate& candidate) const {
+  std::vector<Tried> out;
+  for (const VectorXd& a : starts_at(base, candidate))
+    if (VectorXd of_start = change(base, candidate, a); of_start.size() > 0) out.push_back({a, std::move(of_start)});
+  return out;
 }
 
 }  // namespace twindeck::diagnosis

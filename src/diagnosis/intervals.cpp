@@ -149,4 +149,23 @@ std::vector<EffectParameter> effect_parameters(const Inference& inference, const
   return out;
 }
 
+void widen_sizes(std::vector<EffectParameter>& parameters, double deviation) {
+  const double reach = kReachOfNinety * deviation;
+  static const std::set<std::string> no_size = {"Hz", "deg", "degC", "C", "s", "m"};
+  for (EffectParameter& p : parameters) {
+    if (no_size.contains(p.unit)) continue;
+    const bool factor = p.name == "factor";
+    const auto size = [&](double v) { return factor ? std::log(v) : v; };
+    const auto back = [&](double z) { return factor ? std::exp(z) : z; };
+    const double z = size(p.value), low = size(p.low), high = size(p.high);
+    const auto end = [&](double of) {
+      if (of * z > 0.0) return z * std::exp(std::copysign(std::hypot(std::log(of / z), reach), std::abs(of) - std::abs(z)));
+      return z + std::copysign(std::hypot(of - z, reach * z), of - z);
+    };
+    if (!(z != 0.0) || !std::isfinite(z)) continue;
+    if (!p.at_low_bound) p.low = back(low == z ? z - std::abs(z) * reach : end(low));
+    if (!p.at_high_bound) p.high = back(high == z ? z + std::abs(z) * reach : end(high));
+  }
+}
+
 }  // namespace twindeck::diagnosis

@@ -17,4 +17,8 @@ struct EffectParameter {
 /// the remaining misfit (Birge 1932).
 [[nodiscard]] std::vector<EffectParameter> effect_parameters(const Inference& inference, const Fit& fit, std::size_t which);
 
+/// Widens the intervals of sizes in quadrature by a standard deviation of ln of the size (kg, |ln factor|): a size is in units
+/// of a model that is wrong.
+void widen_sizes(std::vector<EffectParameter>& parameters, double deviation);
+
 }  // namespace twindeck::diagnosis

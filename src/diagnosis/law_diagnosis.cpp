@@ -8,13 +8,11 @@
 
 #include "core/error.hpp"
 #include "core/statistics.hpp"
-#include "diagnosis/diagnose_parts.hpp"
 #include "diagnosis/form_base.hpp"
 #include "diagnosis/form_frame.hpp"
-#include "diagnosis/form_gain.hpp"
-#include "diagnosis/form_weighing.hpp"
 #include "diagnosis/inference/one_verdict.hpp"
 #include "diagnosis/law_search.hpp"
+#include "diagnosis/mode_blocks.hpp"
 #include "diagnosis/size_of_a_cause.hpp"
 #include "diagnosis/splitting_measurement.hpp"
 #include "linalg/dense.hpp"
@@ -27,7 +25,8 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-constexpr double kFarOff = 0.08;         // of frequencies: a person is told
+constexpr double kUnitOfClasses = 0.01, kUnitOfKinks = 0.0025;  // [-] of a scale of 1 (law_frame.hpp)
+constexpr double kFarOff = 0.08;                                // of frequencies: a person is told
 constexpr double kErrorOfSizes = 0.25;   // deviation of ln(size): a law of the rows does not know the units of a wrong model
 constexpr double kMostLeft = 1.0 / 3.0;  // of what changed, RMS: a cause that leaves more is at most a part of it
 constexpr double kGuarded = 15.0;        // nats of the leader: accounts whose predictions are weighed
@@ -39,11 +38,10 @@ Scored as_scored(const LawSearch& search, const LawAccount& account, const Infer
   out.a = account.causes.front().a;
   out.log_odds = account.log_weight - search.none.log_evidence;
   out.screen = std::max(0.0, 2.0 * (account.log_weight - account.log_prior - search.none.log_evidence));
-  out.chi_squared = out.remaining = account.evidence.chi_squared;
-  out.stage = account.refined() ? 3 : 1;
+  out.remaining = account.evidence.chi_squared;
+  out.fitted = account.refined();
   if (out.a.size() == entry.candidate->low.size()) out.signature = informed.signature(search.base, *entry.candidate, out.a);
   if (out.signature.size() == 0) out.signature = VectorXd::Zero(std::ssize(informed.training()));
-  if (account.refined()) out.x = account.with.map.x.head(static_cast<Index>(informed.map().nuisances().size()));
   return out;
 }
 
@@ -90,10 +88,25 @@ PredictiveGain gain_by_law(const LawSetting& setting, const LawSearch& search, i
 }
 
 /// Posterior of a scale: its mode in ln tau and two quantiles of Laplace's approximation.
-ScaleEstimate estimate_of(const LawEvidence& evidence, int index) {
-  constexpr double kUnitOfClasses = 0.01;
-  const double level = kUnitOfClasses * evidence.tau[index], reach = std::exp(kReachOfNinety * evidence.deviation[index]);
-  return {level, level / reach, level * reach, false};
+ScaleEstimate estimate_of(const LawEvidence& evidence, int index, double unit = kUnitOfClasses) {
+  const double level = unit * evidence.tau[index], reach = std::exp(kReachOfNinety * evidence.deviation[index]);
+  return {level, level / reach, level * reach};
+}
+
+/// The classes that are active, by name.
+std::vector<ErrorClass> classes_in_words(const LawEvidence& evidence, const std::vector<Contrast>& contrasts) {
+  std::vector<ErrorClass> out;
+  const auto add = [&](int index, const std::string& name, const std::string& unit, double scale) {
+    if (evidence.tau[index] > 0.0) out.push_back({name, unit, estimate_of(evidence, index, scale)});
+  };
+  add(kFrequencies, "frequencies", "of each mode's frequency", kUnitOfClasses);
+  add(kShapes, "shapes", "of the stiffness, at random in the model's modes", kUnitOfClasses);
+  add(kKinks, "channels of shapes", "of a shape's norm at each channel", kUnitOfKinks);
+  add(kGains, "gains", "of each channel's gain", kUnitOfClasses);
+  for (std::size_t c = 0; c < contrasts.size(); ++c)
+    add(kFirstContrast + static_cast<int>(c), "changes with " + contrasts[c].key, "of frequencies and shapes together",
+        kUnitOfClasses);
+  return out;
 }
 
 /// A fit that starts at x, or else at the model's own values.
@@ -113,9 +126,12 @@ class ByLaw {
       throw InputError({"", 0, "scatter"},
                        "rows are measured more exactly than 16 digits can weigh against what the model leaves open",
                        "leave frequency_floor and shape_floor at their defaults (0.001 and 0.01)");
+    std::erase_if(search_.accounts,
+                  [&](const LawAccount& account) { return std::ssize(account.members) > std::max(options_.most_causes, 1); });
     for (const LawAccount& account : search_.accounts)
       if (account.members.size() == 1) out_.ranking.push_back(as_scored(search_, account, setting_.informed));
     leave_out_refused_sets();
+    out_.probability = 1.0 - judgement_.nothing;
     out_.log_odds = judgement_.log_odds;
     out_.threshold = std::log(kSetProbability / (1.0 - kSetProbability));
     out_.verdict = judgement_.verdict;
@@ -123,9 +139,14 @@ class ByLaw {
     reason_ = reason_of_verdict();
     refuse_partial();
     guard();
+    if ((out_.verdict == Verdict::named || out_.verdict == Verdict::ambiguous) && options_.most_causes == 0) {
+      out_.verdict = Verdict::unknown;
+      reason_ = "a cause stands out, and most_causes allows none";
+    }
     if (out_.verdict == Verdict::named || out_.verdict == Verdict::ambiguous) accept();
     out_.form->frequency = estimate_of(winner_, kFrequencies);
     out_.form->shape = estimate_of(winner_, kShapes);
+    out_.form->classes = classes_in_words(winner_, setting_.contrasts);
     if (out_.form->frequency.level > kFarOff)
       out_.form->warnings.push_back(fmt::format("the model is {:.0f} % off in frequency: too far to see small causes",
                                                 100.0 * out_.form->frequency.level));
@@ -134,6 +155,7 @@ class ByLaw {
   [[nodiscard]] const std::vector<Cause>& causes() const { return causes_; }
   [[nodiscard]] const Fit& fitted() const { return fitted_; }
   [[nodiscard]] const std::string& reason() const { return reason_; }
+  [[nodiscard]] const LawEvidence& winner() const { return winner_; }
 
   /// What the last fit says of the sizes may refuse the name.
   void refuse_sizes() {
@@ -202,7 +224,7 @@ class ByLaw {
     const bool of_channels = std::all_of(members.begin(), members.end(), [&](int m) {
       return is_of_a_channel(*search_.entries[static_cast<std::size_t>(m)].candidate);
     });
-    if (out_.form->gain.low > 0.0 || of_channels) return;
+    if (out_.form->gain.low > 0.0 || out_.form->gain.blocks.empty() || of_channels) return;  // no block: load tests alone
     const bool in_all = std::all_of(members.begin(), members.end(),
                                     [&](int m) { return search_.entries[static_cast<std::size_t>(m)].contrast < 0; });
     out_.verdict = in_all ? Verdict::none : Verdict::unknown;
@@ -349,6 +371,7 @@ void finish_by_law(const Inference& plain, const ByLaw& engine, const DiagnoseOp
   out.after_extension = !out.effects.empty();
   out.localisation = location_map(inference, out.after, out.ranking);
   out.residual = residual_test(inference, out.after);
+  out.residual.take_total(engine.winner().chi_squared, std::ssize(plain.training()));
   out.on_bounds = parameters_on_bounds(levelled, out.before);
   out.gain = held_out_gain(inference, out.before, out.after, options.bootstrap, seed);
 }
@@ -373,7 +396,7 @@ std::string message_by_law(const Diagnosis& out, const ByLaw& engine) {
   const std::string scales = fmt::format("the model's form is off by about {:.1f} % in frequency and {:.1f} % in shape",
                                          100.0 * out.form->frequency.level, 100.0 * out.form->shape.level);
   if (out.verdict == Verdict::none)
-    return fmt::format("nothing found: {} ({}); causes smaller than that which act in every condition cannot be seen",
+    return fmt::format("nothing found: {} ({}). A cause that acts in every condition and changes less than that cannot be seen",
                        engine.reason(), scales);
   std::string text = engine.reason() + " (" + scales + ")";
   if (!out.effects.empty())
@@ -385,9 +408,8 @@ std::string message_by_law(const Diagnosis& out, const ByLaw& engine) {
 
 }  // namespace
 
-Diagnosis diagnose_by_law(const Inference& whole, const DiagnoseOptions& options, std::uint64_t seed) {
+Diagnosis diagnose(const Inference& whole, const DiagnoseOptions& options, std::uint64_t seed) {
   Diagnosis out;
-  out.alpha = options.alpha;
   const FeatureMap& map = whole.map();
   const FeatureMap::Base prior = map.base(VectorXd::Zero(static_cast<Index>(map.nuisances().size())));
   const Prediction nominal = map.predict(prior, {}, false);

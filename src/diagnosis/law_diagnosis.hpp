@@ -1,11 +1,14 @@
 #pragma once
 
+#include <cstdint>
+
 #include "diagnosis/diagnose.hpp"
 
 namespace twindeck::diagnosis {
 
-/// Diagnosis by the one law: errors of the model, of the sensors and of what changed have scales that are estimated under each
-/// hypothesis; one table gives the verdict.
-[[nodiscard]] Diagnosis diagnose_by_law(const Inference& inference, const DiagnoseOptions& options, std::uint64_t seed);
+/// Finds what is wrong, why, and the gain from naming it (docs/diagnosis.md) by one law: errors of the model, of the sensors
+/// and of what changed have scales that are estimated under each hypothesis; one table gives the verdict. The result is
+/// deterministic: `seed` sets the resampling of left-out modes and held-out blocks.
+[[nodiscard]] Diagnosis diagnose(const Inference& inference, const DiagnoseOptions& options, std::uint64_t seed);
 
 }  // namespace twindeck::diagnosis

@@ -22,7 +22,9 @@ enum LawClass : int { kFrequencies, kShapes, kKinks, kGains, kFirstContrast };
 [[nodiscard]] LawSystem law_system(const Inference& plain, const Fit& fit, const std::vector<Contrast>& contrasts,
                                    std::size_t tested = 0);
 
-/// Whether 16 digits suffice for a system (form_evidence.hpp's can_be_weighed).
+/// Whether 16 digits suffice for a system: products of columns in deviations of their rows stay far below what swallows the
+/// unknowns' own variance of one. An extended model whose derivatives mean nothing fails it, and so do rows that are measured
+/// to a part in a million.
 [[nodiscard]] bool can_be_weighed(const LawSystem& system);
 
 }  // namespace twindeck::diagnosis

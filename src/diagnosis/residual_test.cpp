@@ -8,6 +8,8 @@
 #include <set>
 #include <utility>
 
+#include "core/distributions.hpp"
+
 namespace twindeck::diagnosis {
 
 namespace {
@@ -152,6 +154,12 @@ ResidualTest residual_test(const Inference& inference, const Fit& fit) {
   if (!test.blocks.empty())
     test.block_p_value = std::min(1.0, static_cast<double>(test.blocks.size()) * test.blocks.front().p_value);
   return test;
+}
+
+void ResidualTest::take_total(double chi_squared, long degrees) {
+  statistic = chi_squared;
+  dof = static_cast<int>(degrees);
+  p_value = chi_squared_tail(statistic, dof);
 }
 
 }  // namespace twindeck::diagnosis

@@ -17,7 +17,7 @@ struct BlockMisfit {
   double p_value = 1.0;
 };
 
-/// Tests whether there is a misfit that bounds, element scatter and the named causes do not explain.
+/// The misfit that bounds, element scatter, the model's errors and the named causes leave.
 struct ResidualTest {
   double statistic = 0.0;  ///< of all training rows
   int dof = 0;
@@ -25,7 +25,8 @@ struct ResidualTest {
   std::vector<BlockMisfit> blocks;  ///< the least likely first
   double block_p_value = 1.0;       ///< p-value of the least likely block, times the number of blocks (Bonferroni)
 
-  [[nodiscard]] bool rejects(double alpha) const { return p_value < alpha || block_p_value < alpha; }
+  /// Takes a chi² of all rows under another law instead.
+  void take_total(double chi_squared, long degrees);
 };
 
 /// Two tests of a fit. The sum over all rows detects a misfit that is spread over many rows. The test of the blocks detects a

@@ -97,9 +97,9 @@ bool has_rows_of_modes(const FeatureSet& features) {
   return std::any_of(features.rows.begin(), features.rows.end(), [](const Row& row) { return !is_static(row.type); });
 }
 
-void hold_out(const std::vector<std::string>& rules, bool form, FeatureSet& features) {
+void hold_out(const std::vector<std::string>& rules, FeatureSet& features) {
   if (rules.empty()) {
-    if (!form) hold_out_by_rule(features);
+    if (!has_rows_of_modes(features)) hold_out_by_rule(features);
     return;
   }
   for (Row& row : features.rows) row.held_out = false;

@@ -34,8 +34,8 @@ void choose_rows(const RowChoice& choice, FeatureSet& features);
 
 /// Marks the rows that are kept from the fit: those that the rules name, else by mark or rule.
 /// @param rules  "condition", "condition/mode", "condition/mode/type", "condition/every_second", "none"
-/// @param form   the model's form competes: whole modes are left out one after another, so that without rules none is held out
+///               Without rules none of the modes is held out, since whole modes are left out one after another.
 /// @throws InputError  for a rule that matches no row
-void hold_out(const std::vector<std::string>& rules, bool form, FeatureSet& features);
+void hold_out(const std::vector<std::string>& rules, FeatureSet& features);
 
 }  // namespace twindeck::diagnosis

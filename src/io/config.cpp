@@ -149,6 +149,11 @@ FieldTable& FieldTable::choice(const std::string& key, std::string& target, cons
   return *this;
 }
 
+FieldTable& FieldTable::retired(const std::string& key, const std::string& problem, const std::string& mend) {
+  retired_.push_back({key, problem, mend});
+  return *this;
+}
+
 FieldTable& FieldTable::numbers(const std::string& key, std::vector<double>& target, const std::string& unit, Range range,
                                 const std::string& meaning) {
   Field& field = bind_key(fields_, key, "array of numbers", meaning);

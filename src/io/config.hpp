@@ -60,6 +60,10 @@ class FieldTable {
   FieldTable& tables(const std::string& key, std::function<FieldTable()> add, const std::string& meaning,
                      const std::string& named_by = "");
 
+  /// A key of an earlier version. `load` and `set` refuse it, and it is listed nowhere.
+  /// @param problem  what has become of it @param mend  what to do instead
+  FieldTable& retired(const std::string& key, const std::string& problem, const std::string& mend);
+
   /// Result of a broken rule between keys: the key at fault, what is wrong with it, how to correct it.
   struct Broken {
     std::string key, problem, mend;
@@ -93,6 +97,7 @@ class FieldTable {
   [[nodiscard]] std::vector<std::string> lines(const std::string& above = "") const;
 
   std::vector<std::shared_ptr<Field>> fields_;
+  std::vector<Broken> retired_;
   std::vector<std::function<std::optional<Broken>()>> rules_;
 };
 

@@ -24,6 +24,7 @@ struct Reader {
   const Fields& fields;
   std::string file;
   std::string above;  ///< "damper[2]." inside an array of tables
+  std::vector<FieldTable::Broken> retired = {};
 
   [[nodiscard]] FieldTable::Field* find(const std::string& key) const {
     for (const auto& field : fields) {
@@ -37,6 +38,8 @@ struct Reader {
   }
 
   [[noreturn]] void unknown(const std::string& key, long line) const {
+    for (const FieldTable::Broken& old : retired)
+      if (old.key == key) throw InputError({file, line, key}, old.problem, old.mend);
     std::vector<std::string> known;
     for (const auto& field : fields) known.push_back(field->key);
     refuse_unknown_key(file, line, above, key, known);
@@ -129,7 +132,7 @@ void Reader::elements(FieldTable::Field& field, const TomlValue& node, const Pla
 }  // namespace
 
 void FieldTable::load(const fs::path& file) {
-  const Reader reader{fields_, file.string(), ""};
+  const Reader reader{fields_, file.string(), "", retired_};
   reader.table(read_toml(file), "");
   reader.require(0);
 }
@@ -141,7 +144,7 @@ void FieldTable::set(const std::string& key_equals_value) {
   }
   const std::string key = key_equals_value.substr(0, equals);
   const std::string value = key_equals_value.substr(equals + 1);
-  const Reader reader{fields_, "--set", ""};
+  const Reader reader{fields_, "--set", "", retired_};
   Field* field = reader.find(key);
   if (field == nullptr) reader.unknown(key, 0);
   if (field->add) {

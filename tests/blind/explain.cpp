@@ -6,7 +6,7 @@
 #include <chrono>
 #include <cmath>
 
-#include "diagnosis/residual_test.hpp"
+#include "diagnosis/law_diagnosis.hpp"
 
 namespace twindeck::blind {
 
@@ -36,7 +36,8 @@ void explain(const diagnosis::Inference& inference, const Sealed& seal, int entr
   for (std::size_t i = 0; i < std::min<std::size_t>(test.blocks.size(), 4); ++i)
     fmt::print("  not expected: {} ({} rows), statistic {:.1f} of {} dof, p {:.2g}\n", test.blocks[i].name, test.blocks[i].rows,
                test.blocks[i].statistic, test.blocks[i].dof, test.blocks[i].p_value);
-  const std::vector<diagnosis::Scored> ranking = inference.search(base, {});
+  const diagnosis::Diagnosis result = diagnosis::diagnose(inference, {}, seal.seed);
+  const std::vector<diagnosis::Scored>& ranking = result.ranking;
   int place = 0, shown = 0;
   const auto is_truth = [&](const diagnosis::Candidate& candidate) {
     for (std::size_t i = 0; i < seal.families.size(); ++i)
@@ -49,7 +50,7 @@ void explain(const diagnosis::Inference& inference, const Sealed& seal, int entr
     if (shown >= entries && !truth) continue;
     ++shown;
     std::string after = "not fitted";
-    if (scored.stage > 1) {  // what a fit of everything from here leaves, refined or not
+    if (scored.fitted) {  // what a fit of everything from here leaves, refined or not
       const auto begin = std::chrono::steady_clock::now();
       const diagnosis::Fit with = inference.fit({{scored.candidate, scored.a}}, base.map.x);
       fmt::print("[{} it {:.3f} s] ", with.map.iterations,
@@ -58,8 +59,8 @@ void explain(const diagnosis::Inference& inference, const Sealed& seal, int entr
           fmt::format("joint fit chi2 {:.1f} at ({}){}", with.chi_squared, magnitudes_of(*scored.candidate, with.causes[0].a),
                       with.map.status.converged ? "" : " NOT CONVERGED");
     }
-    fmt::print("{}{:>4} {:<28} stage {} screen {:>7.1f} odds {:>7.1f} chi2 {:>7.1f} at ({}); {}\n", truth ? "*" : " ", place,
-               scored.candidate->id(), scored.stage, scored.screen, std::max(scored.log_odds, -999.0), scored.chi_squared,
+    fmt::print("{}{:>4} {:<28} {} screen {:>7.1f} odds {:>7.1f} chi2 {:>7.1f} at ({}); {}\n", truth ? "*" : " ", place,
+               scored.candidate->id(), scored.fitted ? "fitted" : "screened", scored.screen, scored.log_odds, scored.remaining,
                magnitudes_of(*scored.candidate, scored.a), after);
   }
   for (const auto& candidate : inference.candidates()) {

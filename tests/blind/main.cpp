@@ -4,8 +4,7 @@
 /// TWINDECK_BLIND_SECONDS, ends the run with the table of what was done. blind_trials --nulls N: calibration of the residual
 /// test. blind_trials --count N: what N trials hide, by family, without a diagnosis. blind_trials --explain SEED …: the
 /// evidence of single cases. blind_trials --coverage N SEED …: how often intervals hold the size when the cause is given, each
-/// case in N campaigns. A last word --form: the model's form may be wrong (the default of step 9), which it is not here; the
-/// table is shown and judged by nothing.
+/// case in N campaigns.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -247,12 +246,12 @@ void print_errors_of_sizes(const std::vector<Score>& scores) {
   fmt::print("; {} more have a limit on one side only\n", limits);
 }
 
-/// `count` trials from seed `first` on: run, scored and, without the model's form, judged. @return exit code
-int score_trials(const twindeck::blind::Bench& bench, const std::vector<std::string>& catalogue, int count, std::uint64_t first,
-                 bool with_form) {
+/// `count` trials from seed `first` on: run, scored and judged. @return exit code
+int score_trials(const twindeck::blind::Bench& bench, const std::vector<std::string>& catalogue, int count,
+                 std::uint64_t first) {
   const char* budget = std::getenv("TWINDECK_BLIND_SECONDS");
   const auto run = [&](std::uint64_t seed) {
-    return twindeck::blind::run_case(bench, twindeck::blind::make_case(bench, seed), with_form);
+    return twindeck::blind::run_case(bench, twindeck::blind::make_case(bench, seed));
   };
   const auto scores = run_all(
       count, budget ? std::atof(budget) : 1e9, [&](int i) { return run(first + static_cast<std::uint64_t>(i)); },
@@ -272,7 +271,6 @@ int score_trials(const twindeck::blind::Bench& bench, const std::vector<std::str
     const std::uint64_t seed = std::random_device{}();
     fmt::print("\none trial with a fresh seed, {}:\n{}\n", seed, line_of(seed, run(seed)));
   }
-  if (with_form) return 0;
   const char* what = judge == twindeck::blind::Judge::targets
                          ? "target is missed"
                          : "count is worse than the method's own rate gives in a thousand runs";
@@ -285,19 +283,14 @@ int score_trials(const twindeck::blind::Bench& bench, const std::vector<std::str
 int main(int argc, char** argv) {
   std::signal(SIGTERM, stop);
   std::signal(SIGINT, stop);
-  const bool with_form = argc > 1 && std::string(argv[argc - 1]) == "--form";
-  if (with_form) --argc;
   const bool nulls = argc > 1 && std::string(argv[1]) == "--nulls";
   const int shift = nulls ? 1 : 0;
   const int count = argc > 1 + shift ? std::atoi(argv[1 + shift]) : 60;
   const auto first = static_cast<std::uint64_t>(argc > 2 + shift ? std::atoll(argv[2 + shift]) : nulls ? 100001 : 1);
   const auto bench = twindeck::blind::make_bench();
   const auto catalogue = twindeck::blind::families_of(bench);
-  fmt::print(
-      "{} rows, truth on {} dofs, diagnosis on {} dofs, {} families have a place here; thresholds: at least 3 nats (analytic "
-      "tail at 1 %: {:.1f})\n",
-      bench.rows.rows.size(), bench.truth.model->loaded.system.size(), bench.diagnosing.model->loaded.system.size(),
-      catalogue.size(), twindeck::blind::threshold_of(bench));
+  fmt::print("{} rows, truth on {} dofs, diagnosis on {} dofs, {} families have a place here\n", bench.rows.rows.size(),
+             bench.truth.model->loaded.system.size(), bench.diagnosing.model->loaded.system.size(), catalogue.size());
   if (argc > 2 && std::string(argv[1]) == "--explain") {
     for (int i = 2; i < argc; ++i) twindeck::blind::explain_case(bench, static_cast<std::uint64_t>(std::atoll(argv[i])));
     return 0;
@@ -306,5 +299,5 @@ int main(int argc, char** argv) {
     return print_coverage(bench, std::atoi(argv[2]), {argv + 3, argv + argc});
   if (argc > 2 && std::string(argv[1]) == "--count") return dry_run(bench, catalogue, std::atoi(argv[2]), 1);
   if (nulls) return null_calibration(bench, count, first);
-  return score_trials(bench, catalogue, count, first, with_form);
+  return score_trials(bench, catalogue, count, first);
 }

@@ -9,6 +9,7 @@
 
 #include "core/random.hpp"
 #include "diagnosis/features/same_modes.hpp"
+#include "diagnosis/law_diagnosis.hpp"
 #include "identification/identification.hpp"
 
 namespace twindeck::blind {
@@ -133,9 +134,7 @@ Score run_records(const Bench& bench, const Hidden& hidden, const Campaign& camp
   const diagnosis::Instantiated entries = diagnosis::instantiate(catalogue, *bench.diagnosing.reduced, rows);
   const diagnosis::FeatureMap map(*bench.diagnosing.reduced, rows, bench.scatter);
   const diagnosis::Inference inference(map, entries.candidates);
-  diagnosis::DiagnoseOptions options;
-  options.threshold = diagnosis::analytic_threshold(inference, options.alpha);
-  const diagnosis::Diagnosis result = diagnosis::diagnose(inference, options, hidden.seal.seed);
+  const diagnosis::Diagnosis result = diagnosis::diagnose(inference, {}, hidden.seal.seed);
   return score_of(hidden.seal, result, std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count());
 }
 

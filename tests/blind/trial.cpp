@@ -12,7 +12,7 @@
 
 #include "blind/explain.hpp"
 #include "core/parallel.hpp"
-#include "diagnosis/form_diagnosis.hpp"
+#include "diagnosis/law_diagnosis.hpp"
 
 namespace twindeck::blind {
 
@@ -58,7 +58,7 @@ struct Shared {
   std::unique_ptr<diagnosis::FeatureMap> nominal;
   std::unique_ptr<diagnosis::Inference> inference;
   diagnosis::Fit base;
-  diagnosis::ScreenTable table;
+  std::map<std::string, std::vector<VectorXd>> changes;  ///< by key of an entry: of all rows, at the magnitudes of its starts
   std::map<std::string, std::vector<Twin>> families;
   Eigen::MatrixXd noise_factor;
 };
@@ -78,7 +78,12 @@ const Shared& shared_of(const Bench& bench) {
   shared->nominal = std::make_unique<diagnosis::FeatureMap>(*bench.diagnosing.reduced, bench.rows, bench.scatter);
   shared->inference = std::make_unique<diagnosis::Inference>(*shared->nominal, shared->diagnosing.candidates);
   shared->base = shared->inference->fit({}, {});
-  shared->table = shared->inference->screen_table(shared->base);
+  for (const auto& candidate : shared->diagnosing.candidates) {
+    // What a stay does whose own frequency is measured is said by nothing else.
+    if (candidate->tuned >= 0 && (candidate->high - candidate->low)[candidate->tuned] < 0.25) continue;
+    for (const VectorXd& a : candidate->starts)
+      shared->changes[candidate->key()].push_back(shared->inference->change(shared->base, *candidate, a));
+  }
   shared->noise_factor = shared->nominal->covariance().llt().matrixL();
   for (std::size_t i = 0; i < shared->truth.candidates.size(); ++i) {
     const Candidate& c = *shared->truth.candidates[i];
@@ -163,8 +168,8 @@ bool said_by_others(const Shared& shared, const Candidate& truth, const VectorXd
   if (s.size() == 0) return true;
   for (const auto& candidate : shared.diagnosing.candidates) {
     if (candidate->hypothesis == truth.hypothesis) continue;
-    const auto known = shared.table.change.find(candidate->key());
-    if (known == shared.table.change.end()) continue;  // a stay whose own frequency is measured: nothing else has that
+    const auto known = shared.changes.find(candidate->key());
+    if (known == shared.changes.end()) continue;  // a stay whose own frequency is measured: nothing else has that
     const bool tuned = candidate->tuned >= 0, here = candidate->location == truth.location;
     for (std::size_t k = 0; k < known->second.size(); ++k) {
       const VectorXd& change = known->second[k];
@@ -315,7 +320,6 @@ static auto on_inference(const Bench& bench, const Case& hidden, const Use& use)
   map.set_values(hidden.values);
   const diagnosis::Instantiated entries = diagnosis::instantiate(catalogue, *bench.diagnosing.reduced, map.features());
   diagnosis::Inference inference(map, entries.candidates);
-  inference.use(&shared.table);
   return use(inference);
 }
 
@@ -370,12 +374,16 @@ Coverage coverage(const Bench& bench, std::uint64_t seed, int campaigns) {
   return out;
 }
 
-Score run_case(const Bench& bench, const Case& hidden, bool with_form) {
+/// [nats] Of all causes together that act in all conditions: here the model's form is exact, and no error of it looks like one.
+constexpr double kEvenOdds = 0.0;
+
+Score run_case(const Bench& bench, const Case& hidden) {
   timespec begin{};
   clock_gettime(CLOCK_THREAD_CPUTIME_ID, &begin);
   return on_inference(bench, hidden, [&](auto& inference) {  // what is found refers to the inference's entries
-    const diagnosis::Diagnosis result = with_form ? diagnosis::diagnose_with_form(inference, {}, hidden.seal.seed)
-                                                  : diagnosis::diagnose(inference, {}, hidden.seal.seed);
+    diagnosis::DiagnoseOptions options;
+    options.static_odds = kEvenOdds;
+    const diagnosis::Diagnosis result = diagnosis::diagnose(inference, options, hidden.seal.seed);
     timespec end{};
     clock_gettime(CLOCK_THREAD_CPUTIME_ID, &end);
     Score score =
@@ -397,11 +405,9 @@ namespace {
 /// Sum of the probabilities of a family's entries; the odds are those of the first search, nothing missing has odds 1.
 double family_probability(const std::vector<diagnosis::Scored>& ranking, const std::string& family) {
   double top = 0.0;
-  for (const auto& scored : ranking)
-    if (scored.weighed()) top = std::max(top, scored.log_odds);
+  for (const auto& scored : ranking) top = std::max(top, scored.log_odds);
   double of_family = 0.0, all = std::exp(-top);
   for (const auto& scored : ranking) {
-    if (!scored.weighed()) continue;
     const double odds = std::exp(scored.log_odds - top);
     all += odds;
     if (family_of(scored.candidate->id()) == family) of_family += odds;
@@ -466,8 +472,6 @@ NullTest residual_test(const Bench& bench, std::uint64_t seed) {
   const diagnosis::ResidualTest test = diagnosis::residual_test(inference, fit);
   return {test.statistic, test.dof, test.p_value, test.block_p_value};
 }
-
-double threshold_of(const Bench& bench) { return diagnosis::analytic_threshold(*shared_of(bench).inference, 0.01); }
 
 std::vector<std::string> families_of(const Bench& bench) {
   std::vector<std::string> names;

@@ -89,8 +89,6 @@ struct NullTest {
   double p_value, block_p_value;
 };
 [[nodiscard]] NullTest residual_test(const Bench& bench, std::uint64_t seed);
-/// The analytic threshold of this bench at 1 %.
-[[nodiscard]] double threshold_of(const Bench& bench);
 /// Families that have a place on this bench. Called once before threads: it prepares what all cases share.
 [[nodiscard]] std::vector<std::string> families_of(const Bench& bench);
 
@@ -113,7 +111,7 @@ struct Score {
 [[nodiscard]] diagnosis::Cause cause_of(const diagnosis::Candidate& entry, const Sealed& seal);
 
 [[nodiscard]] Score score_of(const Sealed& seal, const diagnosis::Diagnosis& result, double seconds);
-/// @param with_form  the model's form may be wrong (the default of step 9); false: it is exact, as this bench's is
-[[nodiscard]] Score run_case(const Bench& bench, const Case& hidden, bool with_form = false);
+/// Diagnosis of a case as step 9 makes it, but for even prior odds: this bench's model is exact in form.
+[[nodiscard]] Score run_case(const Bench& bench, const Case& hidden);
 
 }  // namespace twindeck::blind

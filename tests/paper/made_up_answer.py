@@ -15,9 +15,9 @@ def parameter(name, unit, value, low, high):
 
 
 def diagnosis(**changes):
-    told = {"schema": 1, "verdict": "named", "message": SENTENCES["why"], "sentences": dict(SENTENCES),
-            "detection": {"log_odds": 53.2, "threshold": 3.0, "alpha": 0.01, "threshold_from": "analytic tail"},
-            "residual_test": {"statistic": 120.0, "dof": 118, "p_value": 0.4, "block_p_value": 0.5, "alpha": 0.001, "stage": "after extension", "blocks": []},
+    told = {"schema": 2, "verdict": "named", "message": SENTENCES["why"], "sentences": dict(SENTENCES),
+            "detection": {"log_odds": 53.2, "threshold": 2.94, "probability": 0.99},
+            "residual_test": {"statistic": 120.0, "dof": 118, "p_value": 0.4, "block_p_value": 0.5, "stage": "after extension", "blocks": []},
             "scatter": [], "account": [],
             "effects": [{"cause": "fric", "location": "dampers:C1,C2", "cluster": ["fric@dampers:C1,C2", "mass@node:725"], "probability": 0.87,
                          "log_odds": 53.2, "split_by": "the modes with dampers at two amplitudes",
@@ -43,9 +43,9 @@ def write_diagnosis(folder, told):
                               "beyond_before", "beyond_after"],
                              [["frequency_Hz", "1", "", "windy", 0, 0.748, 0.017, 0.69, 0.74, 3.4, 0.4, 0, 0],
                               ["frequency_Hz", "2", "", "windy", 1, 1.1, 0.02, 1.09, 1.1, 0.5, 0.1, 0, 0]])
-    made_up_study.write_rows(folder / "hypotheses.csv", ["cause", "location", "log_odds", "screen", "stage", "signature_sigma", "status"],
-                             [["fric", "dampers:C1,C2", 53.2, 110.0, 3, 10.0, "fitted"], ["mass", "node:725", 51.1, 108.0, 3, 10.0, "fitted"],
-                              ["mass", "node:7", "", 2.0, 1, 1.0, "screened"], ["wake", "", "", "", "", "", "not visible: no wind"]])
+    made_up_study.write_rows(folder / "hypotheses.csv", ["cause", "location", "log_odds", "screen", "signature_sigma", "status"],
+                             [["fric", "dampers:C1,C2", 53.2, 110.0, 10.0, "fitted"], ["mass", "node:725", 51.1, 108.0, 10.0, "fitted"],
+                              ["mass", "node:7", "", 2.0, 1.0, "screened"], ["wake", "", "", "", "", "not visible: no wind"]])
     made_up_study.write_rows(folder / "misfit.csv", ["by", "name", "rows", "mean_square_before", "mean_square_after"],
                              [["type", "frequency_Hz", 2, 5.9, 0.1]])
     (folder / "diagnosis.json").write_text(json.dumps(told), encoding="utf-8")

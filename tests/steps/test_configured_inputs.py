@@ -54,7 +54,7 @@ class Diagnosis(unittest.TestCase):
         self.configure("{results}/inputs/model")
 
     def configure(self, model):
-        (self.study / "s9_diagnosis.toml").write_text(f'# a chain\nmodel = "{model}"\ncatalogue = "{ROOT}/workflows/common/hypotheses"\nform = "off"\n')
+        (self.study / "s9_diagnosis.toml").write_text(f'# a chain\nmodel = "{model}"\ncatalogue = "{ROOT}/workflows/common/hypotheses"\n')
 
     def run_step(self, name, *arguments):
         out = self.results / name

@@ -114,7 +114,7 @@ def diagnoses(folder, results):
     """A chain with a tie, by a model whose form is exact; a girder with a frozen bearing, by one whose form is not."""
     test_diagnosis.write_model(folder / "chain")
     test_diagnosis.write_features(folder / "tied", tie=(3, 6, 8e5))
-    diagnose(folder / "chain", folder / "tied", results / "chain", "form=off")
+    diagnose(folder / "chain", folder / "tied", results / "chain")
     at = test_diagnosis_form.write_model(folder / "girder")
     test_diagnosis_form.write_features(folder / "frozen", at, test_diagnosis_form.FROST, 2)
     diagnose(folder / "girder", folder / "frozen", results / "girder")

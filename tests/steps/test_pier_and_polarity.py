@@ -52,31 +52,31 @@ class Girder(unittest.TestCase):
     def on_model(self, token, model, *arguments, out):
         return self.step(token, "--model", self.folder / model, "--features", self.features, *arguments, out=out)
 
-    def diagnosed(self, model, form="off"):
+    def diagnosed(self, model):
         """diagnosis.json and folder of the features as step 3 wrote them."""
-        out = self.folder / f"diagnosis_{model}_{form}"
+        out = self.folder / f"diagnosis_{model}"
         if not out.exists():
-            self.on_model("s9_diagnosis", model, "--set", f"form={form}", out=out.name)
+            self.on_model("s9_diagnosis", model, out=out.name)
         return json.loads((out / "diagnosis.json").read_text()), out
 
-    def corrected(self, model, form="off"):
+    def corrected(self, model):
         """The same with what that found put right."""
-        _, found = self.diagnosed(model, form)
-        out = self.folder / f"corrected_{model}_{form}"
+        _, found = self.diagnosed(model)
+        out = self.folder / f"corrected_{model}"
         if not out.exists():
-            self.on_model("s9_diagnosis", model, "--set", f"form={form}", "--correct", found / "corrections.toml", out=out.name)
+            self.on_model("s9_diagnosis", model, "--correct", found / "corrections.toml", out=out.name)
         return json.loads((out / "diagnosis.json").read_text()), out
 
     def warnings(self, out):
         return json.loads((out / "manifest.json").read_text())["warnings"]
 
-    def assert_channel_found(self, model, form):
-        result, out = self.diagnosed(model, form)
+    def assert_channel_found(self, model):
+        result, out = self.diagnosed(model)
         self.assertEqual(result["measurement_corrections"], [{"channel": REVERSED, "action": "reverse", "with": "", "factor": 1.0}])
         self.assertIn(f"correct {REVERSED}, then update", self.said[out.name])
 
-    def assert_pier_named(self, model, form):
-        result, _ = self.corrected(model, form)
+    def assert_pier_named(self, model):
+        result, _ = self.corrected(model)
         self.assertEqual(result["verdict"], "named", result["message"])
         self.assertEqual(result["measurement_corrections"], [])
         effect = result["effects"][0]
@@ -109,8 +109,7 @@ class PierAndPolarity(Girder):
     def test_the_reversed_channel_is_found_whatever_the_owner_believes_of_the_piers(self):
         for model in ("drawn", "narrow", "wide", "shared"):
             with self.subTest(model=model):
-                self.assert_channel_found(model, "off")
-        self.assert_channel_found("drawn", "on")
+                self.assert_channel_found(model)
 
     def test_with_the_channel_turned_shapes_agree(self):
         _, found = self.diagnosed("wide")
@@ -119,9 +118,7 @@ class PierAndPolarity(Girder):
         self.assertIn(f"corrected first: {REVERSED} reversed", self.said["comparison_corrected"])
 
     def test_with_the_channel_turned_the_pier_is_named(self):
-        for form in ("off", "on"):
-            with self.subTest(form=form):
-                self.assert_pier_named("drawn", form)
+        self.assert_pier_named("drawn")
 
     def test_a_pier_that_may_be_that_soft_is_updated_not_named(self):
         """Where the bounds allow it nothing is missing: the diagnosis weighs shapes, and its model has the right pier soft."""
@@ -146,7 +143,7 @@ class PierAndPolarity(Girder):
         self.assertNotIn("k_pier_E", result["parameters_on_bounds"])
 
     def test_a_spring_that_bears_the_name_of_a_support_is_named(self):
-        self.assert_pier_named("shared", "off")
+        self.assert_pier_named("shared")
 
 
 class OfAnotherModelClass(Girder):
@@ -154,8 +151,7 @@ class OfAnotherModelClass(Girder):
     SEED, SHEAR = 21, True
 
     def test_both_are_found_where_the_form_may_be_wrong(self):
-        self.assert_channel_found("drawn", "on")
-        self.assert_pier_named("drawn", "on")
+        self.assert_pier_named("drawn")
 
 
 if __name__ == "__main__":

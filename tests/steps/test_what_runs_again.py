@@ -33,7 +33,7 @@ class OfOneStudy(unittest.TestCase):
             shutil.copy(ROOT / f"workflows/common/hypotheses/{cause}.toml", cls.root / "my_causes")
         cls.study = cls.root / "workflows/mine/study.toml"
         cls.study.write_text('title = "mine"\nfeatures = "my feat"\nsteps = ["s1_model", "s4_refinement", "s9_diagnosis"]\n[model]\nfolder = "data/mine/model"\n')
-        (cls.root / "workflows/mine/s9_diagnosis.toml").write_text('catalogue = "my_causes"\nform = "off"\n')
+        (cls.root / "workflows/mine/s9_diagnosis.toml").write_text('catalogue = "my_causes"\n')
         done = cls.make("steps")
         if done.returncode:
             raise AssertionError(done.stdout + done.stderr)

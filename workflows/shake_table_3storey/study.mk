@@ -20,7 +20,7 @@ $(INPUTS)/model/model.toml: $(RESULTS)/s3_identification/manifest.json $(WORKFLO
 
 $(REFERENCE_FIT)/manifest.json: $(INPUTS)/model/model.toml $(WORKFLOW)/s9_diagnosis.toml $(PRODUCT)workflows/common/narrow.py $(BIN)/s9_diagnosis
 	@$(BIN)/s9_diagnosis --study $(WORKFLOW) --results $(RESULTS) --out $(REFERENCE_FIT) --model $(INPUTS)/model \
-	  --features $(INPUTS)/reference_features --threads $(THREADS) --quiet --set most_causes=0 --set form=off --set 'hold_out=["none"]'
+	  --features $(INPUTS)/reference_features --threads $(THREADS) --quiet --set most_causes=0 --set 'hold_out=["none"]'
 	@$(PRODUCT)workflows/python.sh $(PRODUCT)workflows/common/narrow.py $(REFERENCE_FIT)/extended_model $(INPUTS)/fitted_model
 
 $(WIDER)/manifest.json: $(REFERENCE_FIT)/manifest.json

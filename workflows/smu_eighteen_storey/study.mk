@@ -6,4 +6,4 @@ INPUTS_s9_diagnosis += $(BESIDE:%=%/manifest.json)
 $(RESULTS)/as_published/manifest.json: MODEL := $(RESULTS)/inputs/published_model
 $(RESULTS)/with_bending/manifest.json: MODEL := $(RESULTS)/inputs/bending_model
 $(BESIDE:%=%/manifest.json): %/manifest.json: $(RESULTS)/inputs/model/model.toml $(WORKFLOW)/s9_diagnosis.toml $(BIN)/s9_diagnosis
-	@$(BIN)/s9_diagnosis --study $(WORKFLOW) --results $(RESULTS) --out $* --model $(MODEL) --threads $(THREADS) --quiet --set form=off
+	@$(BIN)/s9_diagnosis --study $(WORKFLOW) --results $(RESULTS) --out $* --model $(MODEL) --threads $(THREADS) --quiet

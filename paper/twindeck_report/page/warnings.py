@@ -69,6 +69,4 @@ def _of_the_form(study: Study) -> list:
     path = study.results / "s9_diagnosis/diagnosis.json"
     if "s9_diagnosis" not in study.steps() or not path.is_file():
         return []
-    form = json.loads(path.read_text(encoding="utf-8")).get("form", {})
-    parts = form if isinstance(form, list) else [form]  # schema 2 has one a class of the law
-    return [str(text) for part in parts for text in part.get("warnings", [])]
+    return [str(text) for text in json.loads(path.read_text(encoding="utf-8")).get("warnings", [])]

@@ -10,12 +10,12 @@ def diagnosis_rows(a: StepResults, b: StepResults) -> list:
     """Rows of the two `diagnosis.json`."""
     one, other = a.diagnosis, b.diagnosis
     rows = [_row("verdict", "", "", one.get("verdict"), other.get("verdict"))]
-    for part, name in (("detection", "log_odds"), ("detection", "threshold"), ("residual_test", "p_value")):
+    for part, name in (("detection", "log_odds"), ("detection", "probability"), ("residual_test", "p_value")):
         rows.append(_row(part.replace("_", " "), name, "", one.get(part, {}).get(name), other.get(part, {}).get(name)))
     rows += _effects(_by(one.get("effects", []), _effect), _by(other.get("effects", []), _effect))
     rows += _gain(one.get("gain") or {}, other.get("gain") or {})
     rows += _parameters(_by(one.get("model_parameters", []), _name), _by(other.get("model_parameters", []), _name))
-    rows += _form(one.get("form") or {}, other.get("form") or {})
+    rows += _form(_by(one.get("form") or [], _name), _by(other.get("form") or [], _name))
     rows += _listed("parameter on a bound", one.get("parameters_on_bounds", []), other.get("parameters_on_bounds", []))
     rows += _listed("correction of a channel", *([_correction(c) for c in d.get("measurement_corrections", [])] for d in (one, other)))
     told = one.get("sentences", {}), other.get("sentences", {})
@@ -79,9 +79,9 @@ def _parameters(a: dict, b: dict) -> list:
 
 
 def _form(a: dict, b: dict) -> list:
-    """The scale of the model's form error; its `level` is the estimate here, and its interval states no probability."""
-    return [number_row(PART, "s9_diagnosis", "form error", kind, "%", *((d.get(kind) or {}).get("level") for d in (a, b)))
-            for kind in ("frequency_pct", "shape_pct") if kind in a or kind in b]
+    """Scales of the classes of errors."""
+    return [number_row(PART, "s9_diagnosis", "errors of", name, "%", *(d.get(name, {}).get("scale") for d in (a, b)),
+                       larger(*(_std(d.get(name, {})) for d in (a, b)))) for name in dict.fromkeys([*a, *b])]
 
 
 def _correction(entry: dict) -> str:

@@ -400,21 +400,6 @@ double Candidate::value(const Expression& e, const Eigen::VectorXd& a) const {
   return e.factor * attribute(*this, e);
 }
 
-Candidate elsewhere(const Candidate& like, const std::string& location, std::vector<const ReducedPlace*> places,
-                    const FeatureSet& features) {
-  Candidate out;
-  out.hypothesis = like.hypothesis;
-  out.location = location;
-  out.places = std::move(places);
-  out.state = like.state;
-  out.further_states = like.further_states;
-  out.when = like.when;
-  out.log_prior = like.log_prior;
-  out.refines = like.refines != nullptr ? like.refines : &like;
-  bound(out, measured_modes(features));
-  return out;
-}
-
 Instantiated instantiate(const std::vector<Hypothesis>& catalogue, const ReducedModel& model, const FeatureSet& features) {
   Instantiated out;
   double weights = 0.0;

@@ -38,8 +38,6 @@ struct Candidate {
   int tuned = -1;                       ///< unknown that is a frequency tuned to measured modes, -1 for none
   std::vector<Tuning> tuning;           ///< (n_starts) where there is one
   double log_prior = 0.0;               ///< ln (weight of the family / sum of weights / number of locations)
-  /// Entry of the catalogue whose prior this one shares, for one that was laid between the locations; null for all others.
-  const Candidate* refines = nullptr;
 
   [[nodiscard]] std::string id() const { return hypothesis->id + "@" + location; }
   /// The same, told apart by the states that it acts in.
@@ -84,10 +82,5 @@ struct Instantiated {
 
 /// A condition's value of a key as a number, if it is known.
 [[nodiscard]] std::optional<double> number_of(const Condition& condition, const std::string& key);
-
-/// The same cause somewhere else: `like` with the bounds and starts that its family has at other places of the model.
-/// @param places  of the kind that the family acts on
-[[nodiscard]] Candidate elsewhere(const Candidate& like, const std::string& location, std::vector<const ReducedPlace*> places,
-                                  const FeatureSet& features);
 
 }  // namespace twindeck::diagnosis

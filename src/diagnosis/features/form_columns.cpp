@@ -19,7 +19,6 @@ using Eigen::VectorXd;
 constexpr int kLowestModes = 12;     // that a paired mode's shape may take up
 constexpr double kLeastGap = 0.05;   // relative, between frequencies: nearer modes turn no further into each other
 constexpr double kKink = 0.25;       // of a shape's norm, per unit of the form error
-constexpr double kShapePart = 0.5;   // of U in a generic change
 constexpr double kRotation = 0.012;  // radians of a rotation times the relative gap …
 constexpr double kCovered = 0.06, kFarthest = 0.12;  // … for gaps between these
 
@@ -115,16 +114,6 @@ std::optional<Contrast> contrast_of(const std::string& key, const std::vector<st
   for (std::size_t c = 0; c < values.size(); ++c)
     if (values[c]) out.weight[static_cast<Index>(c)] = *values[c] - from;
   out.weight /= out.weight.cwiseAbs().maxCoeff();
-  return out;
-}
-
-MatrixXd change_columns(const FormColumns& form, const Contrast& contrast, const std::vector<int>& condition_of_row) {
-  const Index n = form.frequency.rows(), nf = form.frequency.cols();
-  VectorXd weight(n);
-  for (Index r = 0; r < n; ++r) weight[r] = contrast.weight[condition_of_row[static_cast<std::size_t>(r)]];
-  MatrixXd out(n, nf + form.shape.cols());
-  out.leftCols(nf) = weight.asDiagonal() * form.frequency;
-  out.rightCols(form.shape.cols()) = kShapePart * (weight.asDiagonal() * form.shape);
   return out;
 }
 

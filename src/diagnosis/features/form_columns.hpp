@@ -51,9 +51,4 @@ struct Contrast {
 /// @param values  (n_conditions)
 [[nodiscard]] std::optional<Contrast> contrast_of(const std::string& key, const std::vector<std::optional<double>>& values);
 
-/// G: a generic change with a contrast, of the frequency of each mode and, half as large, of shapes.
-/// @param condition_of_row (n_rows)
-[[nodiscard]] Eigen::MatrixXd change_columns(const FormColumns& form, const Contrast& contrast,
-                                             const std::vector<int>& condition_of_row);
-
 }  // namespace twindeck::diagnosis

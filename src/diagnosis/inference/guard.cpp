@@ -6,7 +6,6 @@
 #include <random>
 
 #include "core/error.hpp"
-#include "diagnosis/inference/form_evidence.hpp"
 #include "linalg/dense.hpp"
 
 namespace twindeck::diagnosis {
@@ -85,53 +84,11 @@ void resample(PredictiveGain& out, int bootstrap, std::uint64_t seed) {
 
 }  // namespace
 
-std::shared_ptr<const Precision> precision_of(const MatrixXd& sigma_factor, const MatrixXd& columns) {
-  const MatrixXd white = linalg::lower_solve(sigma_factor, columns);
-  MatrixXd inner = linalg::product(white, white, true);
-  inner.diagonal().array() += 1.0;
-  const MatrixXd lower = linalg::cholesky_factor(inner);
-  TWINDECK_ASSERT(lower.size() > 0);
-  const MatrixXd taken = linalg::lower_solve(lower, white.transpose());
-  MatrixXd middle = -linalg::product(taken, taken, true);
-  middle.diagonal().array() += 1.0;
-  auto out = std::make_shared<Precision>();
-  const MatrixXd half = linalg::lower_solve(sigma_factor, std::move(middle), true);
-  out->matrix = linalg::lower_solve(sigma_factor, half.transpose(), true);
-  out->matrix = (0.5 * (out->matrix + out->matrix.transpose())).eval();
-  out->log_determinant = 2.0 * (sigma_factor.diagonal().array().log().sum() + lower.diagonal().array().log().sum());
-  return out;
-}
-
-PredictiveGain leave_one_out(const std::vector<std::vector<int>>& blocks, const Explanation& none,
-                             const std::vector<Explanation>& entries, int bootstrap, std::uint64_t seed) {
-  PredictiveGain out;
-  if (entries.empty()) return out;
-  std::vector<const Explanation*> all = {&none};
-  for (const Explanation& e : entries) all.push_back(&e);
-  std::vector<MatrixXd> u;
-  std::vector<VectorXd> chi_squared;
-  for (const Explanation* e : all) {
-    u.push_back(linalg::product(e->precision->matrix, e->left));
-    chi_squared.emplace_back(u.back().cwiseProduct(e->left).colwise().sum());
-  }
-  for (const std::vector<int>& block : blocks) {
-    const Fold without = fold_of(none, u[0], chi_squared[0], block);
-    BlockGain gain;
-    gain.rows = static_cast<int>(block.size());
-    gain.before = without.square;
-    Fold best;
-    for (std::size_t k = 1; k < all.size(); ++k) {
-      const Fold with = fold_of(*all[k], u[k], chi_squared[k], block);
-      if (gain.chosen >= 0 && with.log_evidence <= best.log_evidence) continue;
-      best = with;
-      gain.chosen = static_cast<int>(k) - 1;
-    }
-    gain.after = best.square;
-    gain.log_gain = best.log_density - without.log_density;
-    out.blocks.push_back(gain);
-  }
-  resample(out, bootstrap, seed);
-  return out;
+double log_sum(const std::vector<double>& v) {
+  const double top = *std::max_element(v.begin(), v.end());
+  double sum = 0.0;
+  for (const double value : v) sum += std::exp(value - top);
+  return top + std::log(sum);
 }
 
 PredictiveGain gain_of_odds(const std::vector<std::vector<int>>& blocks, const Explanation& none,

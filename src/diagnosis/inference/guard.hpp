@@ -12,10 +12,6 @@ struct Precision {
   Eigen::MatrixXd matrix;
   double log_determinant = 0.0;
 };
-/// Of Sigma = L0 L0' + C C'. @param columns C, each scaled by its deviation
-[[nodiscard]] std::shared_ptr<const Precision> precision_of(const Eigen::MatrixXd& sigma_factor,
-                                                            const Eigen::MatrixXd& columns);
-
 /// A hypothesis with its scales fixed: the residual less each of its signatures is N(0, Sigma).
 struct Explanation {
   std::shared_ptr<const Precision> precision;
@@ -23,12 +19,12 @@ struct Explanation {
   Eigen::VectorXd log_weight;  ///< (n_magnitudes) ln prior of the entry and the magnitude
 };
 
-/// Prediction of the rows that a fold leaves out, by the entry that the other rows chose.
+/// Prediction of the rows that a fold leaves out.
 struct BlockGain {
-  double log_gain = 0.0;             ///< ln predictive density of that entry minus that without a cause
+  double log_gain = 0.0;             ///< ln odds against nothing from all rows less those from all other rows
   double before = 0.0, after = 0.0;  ///< sums of squared standardised residuals
   int rows = 0;
-  int chosen = -1;  ///< position among the entries
+  int chosen = -1;  ///< position of the entry that leads by the other rows; -1: nothing leads
 };
 
 struct PredictiveGain {
@@ -37,18 +33,17 @@ struct PredictiveGain {
   double reduction_pct = 0.0, low_pct = 0.0, high_pct = 0.0;  ///< of the RMS of standardised residuals
 };
 
-/// Nested leave-one-block-out prediction. With Q = Sigma^-1 and block b: e_b = (Q_bb)^-1 (Q r)_b has covariance (Q_bb)^-1;
-/// magnitudes are weighted by the other rows, chi² - u_b' (Q_bb)^-1 u_b with u = Q (r - s), and the entry is chosen
-/// anew in each fold by its evidence on them. With fewer than three blocks the intervals reach to zero, because so few blocks
-/// cannot decide.
-/// @param blocks  rows of each; rows outside all blocks are always used
-[[nodiscard]] PredictiveGain leave_one_out(const std::vector<std::vector<int>>& blocks, const Explanation& none,
-                                           const std::vector<Explanation>& entries, int bootstrap, std::uint64_t seed);
-
 /// Leave-one-block-out gain of the odds against nothing: of each block, ln odds from all rows less ln odds from all rows but
-/// the block's. The odds are of nothing and all entries together to nothing. `after` weighs entries by the other rows.
+/// the block's. The odds are of nothing and all entries together to nothing. `after` weighs entries by the other rows. With
+/// Q = Sigma^-1 and block b: e_b = (Q_bb)^-1 (Q r)_b has covariance (Q_bb)^-1; magnitudes are weighted by the other rows,
+/// chi² - u_b' (Q_bb)^-1 u_b with u = Q (r - s). With fewer than three blocks the intervals reach to zero, because so few
+/// blocks cannot decide.
+/// @param blocks   rows of each; rows outside all blocks are always used
 /// @param entries  their log_weight holds all that does not depend on rows
 [[nodiscard]] PredictiveGain gain_of_odds(const std::vector<std::vector<int>>& blocks, const Explanation& none,
                                           const std::vector<Explanation>& entries, int bootstrap, std::uint64_t seed);
+
+/// ln (sum exp v) of at least one number.
+[[nodiscard]] double log_sum(const std::vector<double>& v);
 
 }  // namespace twindeck::diagnosis

@@ -6,6 +6,20 @@
 
 namespace twindeck::diagnosis {
 
+std::string name_of(Verdict verdict) {
+  switch (verdict) {
+    case Verdict::named:
+      return "named";
+    case Verdict::ambiguous:
+      return "ambiguous";
+    case Verdict::unknown:
+      return "unknown";
+    case Verdict::none:
+      break;
+  }
+  return "none";
+}
+
 Judgement judge(double log_weight_of_nothing, const std::vector<PossibleAnswer>& answers) {
   Judgement out;
   if (answers.empty()) return out;

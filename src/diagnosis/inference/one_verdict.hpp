@@ -1,10 +1,13 @@
 #pragma once
 
+#include <string>
 #include <vector>
 
-#include "diagnosis/inference/verdict.hpp"
-
 namespace twindeck::diagnosis {
+
+enum class Verdict { none, named, ambiguous, unknown };
+/// The verdict as a word, as in diagnosis.json.
+[[nodiscard]] std::string name_of(Verdict verdict);
 
 /// Answer beside "nothing": an entry of the catalogue, or "something else changed".
 struct PossibleAnswer {

@@ -187,7 +187,7 @@ constexpr double kSettled = 1e-10, kSettledStrokes = 1e-8;
 /// from this: their own rate is so large that the eigensolver would lose the frequencies beside it in rounding.
 constexpr double kWeakestStart = 1e-4;
 /// [-] of the highest frequency: a mode below this is the structure's motion as a rigid body.
-constexpr double kRigid = 1e-4;
+constexpr double kRigidMotion = 1e-4;
 
 /// Damped modes in the coordinates of the undamped ones, phi = Psi z: there T(s) = diag(1 + s² mu) + B D(s) B' for the p
 /// directions B of few attachments, so that a step of residual inverse iteration costs n p² operations where a factorisation of
@@ -317,7 +317,7 @@ class ModalRoots {
     MatrixXd flexibility = bm_.bottomRows(bm_.rows() - m).transpose() * bm_.bottomRows(bm_.rows() - m);
     VectorXd rate = VectorXd::Zero(p), back = VectorXd::Zero(p);  // dz/dt = rate f - back z
     double lowest = highest;
-    for (Index i = m - 1; i >= 0 && modes_.eigenvalue(i) > std::pow(kRigid * highest, 2); --i)
+    for (Index i = m - 1; i >= 0 && modes_.eigenvalue(i) > std::pow(kRigidMotion * highest, 2); --i)
       lowest = std::sqrt(modes_.eigenvalue(i));
     for (Index k = 0; k < p; ++k) {
       const Attachment& a = state_.attachments[static_cast<std::size_t>(k)];

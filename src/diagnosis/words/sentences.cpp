@@ -195,12 +195,9 @@ std::string with_intervals(const Effect& effect) {
     if (!is_a_count && effect.cause.candidate->hypothesis->sentence.find("{" + p.name + ".low}") == std::string::npos)
       words.push_back(interval_words(p));
   }
-  const std::string within =
-      effect.within_m > 0.0 ? fmt::format(" The place is known to {} m.", number_in_words(effect.within_m)) : "";
   std::string sentence = effect.sentence;
   if (!in_state.empty() && sentence.ends_with('.')) sentence.pop_back();
-  return ended(sentence + in_state) + within +
-         (words.empty() ? "" : fmt::format(" 90 % intervals: {}.", fmt::join(words, "; ")));
+  return ended(sentence + in_state) + (words.empty() ? "" : fmt::format(" 90 % intervals: {}.", fmt::join(words, "; ")));
 }
 
 std::string why_it_is(const Diagnosis& result, const IdsInWords& ids) {

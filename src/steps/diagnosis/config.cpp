@@ -2,6 +2,33 @@
 
 namespace twindeck::steps {
 
+namespace {
+
+/// Keys of earlier versions, and what has taken their place.
+struct Retired {
+  const char *name, *problem, *mend;
+};
+
+constexpr const char* kOneLaw = "is a key of an earlier method of diagnosis: scales and odds are now estimated from the rows";
+constexpr const char* kTable = "leave it out: a verdict needs a probability of 95 % (docs/diagnosis.md)";
+constexpr Retired retired[] = {
+    {"form", "is a key of an earlier choice between methods of diagnosis: there is one method now",
+     "leave it out; for a model that is exact, scales of its errors come out near zero"},
+    {"alpha", kOneLaw, kTable},
+    {"least_log_odds", kOneLaw, kTable},
+    {"either_within", kOneLaw, kTable},
+    {"residual_alpha", kOneLaw, kTable},
+    {"residual_alpha_named", kOneLaw, kTable},
+    {"nulls", "ran null data sets for a threshold that is no longer used", kTable},
+    {"threshold_cache", "kept thresholds that are no longer used", kTable},
+    {"most_refined", "set how an earlier search went on", "leave it out: the leading entries of every family are fitted"},
+    {"refine_within", "set how an earlier search went on", "leave it out: the leading entries of every family are fitted"},
+    {"refine_locations", "looked for places between those of the catalogue, which is no longer done",
+     "raise nodes and zones instead, for more places"},
+};
+
+}  // namespace
+
 io::FieldTable DiagnosisConfig::fields() {
   io::FieldTable t;
   t.text("catalogue", catalogue, "folder of hypotheses (default: workflows/common/hypotheses)")
@@ -19,39 +46,20 @@ io::FieldTable DiagnosisConfig::fields() {
       .texts("hold_out", hold_out,
              "rows kept from the fit: \"condition\", \"condition/mode\", \"condition/mode/type\" or "
              "\"condition/every_second\", \"none\"; empty: marks, else the rule")
-      .number("alpha", alpha, "", {1e-6, 0.5}, "false alarms that the threshold allows")
-      .number("residual_alpha", residual_alpha, "", {1e-9, 0.5},
-              "level at which the residual test says that something is left, where nothing is named")
-      .number("residual_alpha_named", residual_alpha_named, "", {1e-9, 0.5},
-              "the same with the named causes in the model; a smaller p makes the name unknown (form off only)")
-      .number("either_within", either_within, "", io::positive(), "nats within which two causes are not told apart")
-      .number("least_log_odds", least_log_odds, "", io::non_negative(), "log odds below which nothing is named")
-      .integer("nulls", nulls, {0, 100000}, "null data sets run for the threshold where none is cached; 0: the analytic tail")
-      .integer("most_refined", most_refined, {1, 50}, "entries of a search that are fitted together with all other unknowns")
-      .number("refine_within", search.refine_within, "", io::positive(),
-              "nats of the best, as weighed before, within which they are")
-      .integer("most_causes", most_causes, {0, 8}, "causes put into the model one after another")
+      .integer("most_causes", most_causes, {0, 3},
+               "causes that may act together in one explanation; 0: what is found is told and not put into the model")
       .integer("modes", modes, {4, 200},
                "least number of modes in the reduced basis; it has more where the highest measured frequency asks for them")
       .integer("zones", zones, {2, 10000}, "zones that the elements are gathered in")
       .integer("nodes", nodes, {2, 10000}, "nodes at which masses, oscillators and ties are looked for")
       .number("sensor_tolerance", sensor_tolerance_m, "m", io::positive(),
               "farthest that a sensor may lie from the node that stands for it")
-      .choice(
-          "form", form, {"on", "off", "one"},
-          "on: the model's form may be wrong, its error is estimated and competes with every cause; one: the same by one law "
-          "of the residual and one table of verdicts; off: the model is exact but for scatter")
-      .boolean(
-          "refine_locations", refine_locations,
-          "look at the nodes, ties and halves of zones round the leading cause before it is named; takes about three times "
-          "as long")
       .choice("stays", stays, {"auto", "as_modelled"},
               "auto: stays that the model has as bars become cables in several elements where that explains measured modes "
               "which the model "
               "resembles nowhere; their forces come from stay_frequency_Hz rows (left_out keeps these from the fit, not from "
               "here), else "
               "from the model; as_modelled: they stay bars")
-      .text("threshold_cache", threshold_cache, "folder of thresholds by hash (default: <results>/thresholds, or beside --out)")
       .number("scatter.element_stiffness", scatter.element_stiffness, "", io::non_negative(),
               "relative deviation of an element's stiffness")
       .number("scatter.element_mass", scatter.element_mass, "", io::non_negative(), "of an element's mass")
@@ -71,11 +79,8 @@ io::FieldTable DiagnosisConfig::fields() {
                "structural damping is another unknown where dampers are on (stuck ones rub)")
       .number("scatter.model_form", scatter.model_form, "", io::non_negative(),
               "of a frequency, alike in all conditions of a mode: what a model that is known to be off leaves open");
+  for (const Retired& key : retired) t.retired(key.name, key.problem, key.mend);
   return t;
-}
-
-bool DiagnosisConfig::with_form(const diagnosis::FeatureSet& features) const {
-  return form != "off" && diagnosis::has_rows_of_modes(features);
 }
 
 }  // namespace twindeck::steps

@@ -29,10 +29,15 @@ std::string channel_of(const Inference& inference, const Row& row) {
 
 /// The form error's scales, and the gain on modes left out.
 void add_form(const diagnosis::FormReport& form, nlohmann::ordered_json& json) {
-  const auto percent = [](const diagnosis::ScaleEstimate& e) {
-    return nlohmann::ordered_json{{"level", 100.0 * e.level}, {"low", 100.0 * e.low}, {"high", 100.0 * e.high}};
-  };
-  json["form"] = {{"frequency_pct", percent(form.frequency)}, {"shape_pct", percent(form.shape)}, {"warnings", form.warnings}};
+  json["form"] = nlohmann::ordered_json::array();
+  for (const diagnosis::ErrorClass& c : form.classes)
+    json["form"].push_back({{"name", c.name},
+                            {"unit", "% " + c.unit},
+                            {"scale", 100.0 * c.scale.level},
+                            {"low", 100.0 * c.scale.low},
+                            {"high", 100.0 * c.scale.high},
+                            {"level", 0.90}});
+  json["warnings"] = form.warnings;
   auto& gain = json["gain"];
   gain["log_gain"] = form.gain.log_gain;
   gain["log_gain_interval"] = {form.gain.low, form.gain.high};
@@ -64,7 +69,6 @@ void add_place_and_rivals(const diagnosis::Effect& effect, const Told& told, nlo
     for (const std::string& state : further) json["states"].push_back(state);
   }
   json["place"] = {{"words", place.words}, {"x_m", place.x_m.x()}, {"y_m", place.x_m.y()}, {"z_m", place.x_m.z()}};
-  if (effect.within_m > 0.0) json["place"]["within_m"] = effect.within_m;
   json["rivals"] = nlohmann::ordered_json::array();
   for (const diagnosis::Rival& rival : effect.rivals)
     json["rivals"].push_back(
@@ -93,12 +97,11 @@ nlohmann::ordered_json listed_sentences(const diagnosis::Sentences& sentences) {
           {"next", sentences.next}};
 }
 
-nlohmann::ordered_json residual_json(const Diagnosis& result, double alpha) {
+nlohmann::ordered_json residual_json(const Diagnosis& result) {
   nlohmann::ordered_json json = {{"statistic", result.residual.statistic},
                                  {"dof", result.residual.dof},
                                  {"p_value", result.residual.p_value},
                                  {"block_p_value", result.residual.block_p_value},
-                                 {"alpha", alpha},
                                  {"stage", result.after_extension ? "after extension" : "before"},
                                  {"blocks", nlohmann::ordered_json::array()}};
   for (std::size_t i = 0; i < std::min(result.residual.blocks.size(), kToldBlocks); ++i) {
@@ -147,18 +150,14 @@ nlohmann::ordered_json gain_json(const Diagnosis& result) {
 }  // namespace
 
 void write_diagnosis(const Diagnosis& result, const std::vector<diagnosis::Finding>& account, const Told& told,
-                     const diagnosis::FullCheck& check, double residual_alpha, double seconds,
-                     const std::string& threshold_from, const std::filesystem::path& file) {
+                     const diagnosis::FullCheck& check, double seconds, const std::filesystem::path& file) {
   nlohmann::ordered_json json;
-  json["schema"] = 1;
+  json["schema"] = 2;
   json["verdict"] = name_of(result.verdict);
   json["message"] = result.message;
   json["sentences"] = listed_sentences(told.sentences);
-  json["detection"] = {{"log_odds", result.log_odds},
-                       {"threshold", result.threshold},
-                       {"alpha", result.alpha},
-                       {"threshold_from", threshold_from}};
-  json["residual_test"] = residual_json(result, residual_alpha);
+  json["detection"] = {{"log_odds", result.log_odds}, {"threshold", result.threshold}, {"probability", result.probability}};
+  json["residual_test"] = residual_json(result);
   json["scatter"] = nlohmann::ordered_json::array();
   for (const auto& s : result.scatter)
     json["scatter"].push_back(
@@ -213,14 +212,12 @@ void write_residuals(const Inference& inference, const Diagnosis& result, const 
 
 void write_hypotheses(const Diagnosis& result, const std::vector<diagnosis::Invisible>& invisible,
                       const std::filesystem::path& file) {
-  io::CsvWriter csv({"cause", "location", "log_odds", "screen", "stage", "signature_sigma", "status"});
+  io::CsvWriter csv({"cause", "location", "log_odds", "screen", "signature_sigma", "status"});
   for (const auto& scored : result.ranking) {
-    const bool fitted = scored.weighed();
-    csv.row({scored.candidate->hypothesis->id, scored.candidate->location,
-             fitted ? std::optional<double>(scored.log_odds) : std::nullopt, scored.screen, scored.stage,
-             scored.signature.norm(), fitted ? "fitted" : "screened"});
+    csv.row({scored.candidate->hypothesis->id, scored.candidate->location, scored.log_odds, scored.screen,
+             scored.signature.norm(), scored.fitted ? "fitted" : "screened"});
   }
-  for (const auto& none : invisible) csv.row({none.hypothesis, "", "", "", "", "", "not visible: " + none.reason});
+  for (const auto& none : invisible) csv.row({none.hypothesis, "", "", "", "", "not visible: " + none.reason});
   csv.save(file);
 }
 

@@ -25,14 +25,13 @@ struct Told {
 /// diagnosis.json, as docs/ describes it.
 /// @param check  of the winner against the full model
 void write_diagnosis(const diagnosis::Diagnosis& result, const std::vector<diagnosis::Finding>& account, const Told& told,
-                     const diagnosis::FullCheck& check, double residual_alpha, double seconds,
-                     const std::string& threshold_from, const std::filesystem::path& file);
+                     const diagnosis::FullCheck& check, double seconds, const std::filesystem::path& file);
 /// residuals.csv: `type,mode,channel,condition,held_out,value,std,before,after,residual_before,residual_after,beyond_before,
 /// beyond_after`: predictions in the row's own unit; residuals over the standard deviation of identification; beyond: 1 where
 /// it lies outside the limit that all rows together keep with 99 % (Sidak).
 void write_residuals(const diagnosis::Inference& inference, const diagnosis::Diagnosis& result,
                      const std::filesystem::path& file);
-/// hypotheses.csv: `cause,location,log_odds,screen,stage,low_sigma,status`: every entry of the catalogue in the order of its
+/// hypotheses.csv: `cause,location,log_odds,screen,signature_sigma,status`: every entry of the catalogue in the order of its
 /// odds, and the families that these data can't see with the reason.
 void write_hypotheses(const diagnosis::Diagnosis& result, const std::vector<diagnosis::Invisible>& invisible,
                       const std::filesystem::path& file);

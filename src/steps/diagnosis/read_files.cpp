@@ -87,7 +87,7 @@ void refuse_unknown_names(const DiagnosisConfig& config, const DiagnosisFiles& f
       matching::read_pairs(config.pairs, std::numeric_limits<Eigen::Index>::max(), {"", 0, "pairs"}, "raise modes"));
   if (config.hold_out.empty()) return;
   diagnosis::FeatureSet rows = files.features;
-  diagnosis::hold_out(config.hold_out, config.with_form(rows), rows);
+  diagnosis::hold_out(config.hold_out, rows);
 }
 
 }  // namespace

@@ -5,10 +5,8 @@
 #include <chrono>
 
 #include "diagnosis/files/measurement_corrections.hpp"
-#include "diagnosis/form_diagnosis.hpp"
 #include "diagnosis/law_diagnosis.hpp"
 #include "diagnosis/paired_check.hpp"
-#include "diagnosis/refinement.hpp"
 #include "steps/diagnosis/extension.hpp"
 #include "steps/diagnosis/outputs.hpp"
 #include "steps/diagnosis/setup.hpp"
@@ -37,20 +35,6 @@ void say_sentences(diagnosis::Verdict verdict, const diagnosis::Sentences& sente
   context.say("  how sure: " + sentences.how_sure);
   context.say("  how much better: " + sentences.how_much_better);
   context.say("  next: " + sentences.next);
-}
-
-diagnosis::DiagnoseOptions options_of(const DiagnosisConfig& config, const Threshold& threshold) {
-  diagnosis::DiagnoseOptions options;
-  options.alpha = config.alpha;
-  options.threshold = threshold.value;
-  options.least_log_odds = config.least_log_odds;
-  options.either_within = config.either_within;
-  options.residual_alpha = config.residual_alpha;
-  options.residual_alpha_named = config.residual_alpha_named;
-  options.search = config.search;
-  options.search.most_refined = static_cast<int>(config.most_refined);
-  options.most_causes = static_cast<int>(config.most_causes);
-  return options;
 }
 
 void say_modes_explained(const diagnosis::Diagnosis& result, runner::StepContext& context) {
@@ -95,13 +79,6 @@ void say_check(const diagnosis::FullCheck& check, double allowed_pct, long modes
                     check.largest_pct, allowed_pct, modes));
 }
 
-diagnosis::Diagnosis diagnosed(const diagnosis::Inference& inference, const diagnosis::DiagnoseOptions& options,
-                               const std::string& form, std::uint64_t seed) {
-  if (form == "off") return diagnosis::diagnose(inference, options, seed);
-  return form == "one" ? diagnosis::diagnose_by_law(inference, options, seed)
-                       : diagnosis::diagnose_with_form(inference, options, seed);
-}
-
 Status run_diagnosis(const DiagnosisConfig& config, const DiagnosisFiles& files, runner::StepContext& context) {
   const auto begin = std::chrono::steady_clock::now();
   DiagnosisInputs inputs = prepare_diagnosis(config, files, context);
@@ -120,13 +97,9 @@ Status run_diagnosis(const DiagnosisConfig& config, const DiagnosisFiles& files,
     context.say("plan.csv says what these rows would see");
     return {};
   }
-  const bool form = config.with_form(inputs.features);  // its rules have thresholds of their own
-  const Threshold threshold =
-      form ? Threshold{0.0, "rules with a form error"} : find_threshold(config, inputs, inference, context);
-  diagnosis::Refinement refinement(inputs.structure, inputs.places, *inputs.reduced, inputs.features);
-  diagnosis::DiagnoseOptions options = options_of(config, threshold);
-  if (config.refine_locations) options.refinement = &refinement;
-  diagnosis::Diagnosis result = diagnosed(inference, options, form ? config.form : "off", context.seed + 1);
+  diagnosis::DiagnoseOptions options;
+  options.most_causes = static_cast<int>(config.most_causes);
+  diagnosis::Diagnosis result = diagnosis::diagnose(inference, options, context.seed + 1);
   if (result.before.all.g.size() == 0) return {false, result.message};
   if (inputs.bar_stays) inputs.bar_stays->put_first(result);
   const diagnosis::PlaceWords places(inputs.model->loaded.fe_model(), inputs.model->loaded.system.dofs, inputs.model->channels,
@@ -151,8 +124,7 @@ Status run_diagnosis(const DiagnosisConfig& config, const DiagnosisFiles& files,
                   corrections};
   std::vector<diagnosis::Finding> account = inputs.account;
   for (diagnosis::Finding& finding : account) finding.text = ids.in_text(finding.text);
-  write_diagnosis(result, account, told, check, options.residual_level(result), seconds, threshold.from,
-                  context.out / "diagnosis.json");
+  write_diagnosis(result, account, told, check, seconds, context.out / "diagnosis.json");
   diagnosis::write_corrections(inputs.corrected, corrections, context.out / "corrections.toml");
   for (const diagnosis::Finding& finding : account) context.say(finding.text);
   say_modes_explained(result, context);

@@ -7,8 +7,6 @@
 
 #include "core/error.hpp"
 #include "diagnosis/files/feature_files.hpp"
-#include "diagnosis/files/threshold_file.hpp"
-#include "diagnosis/null_calibration.hpp"
 #include "diagnosis/reduction/basis_modes.hpp"
 #include "dynamics/unit_slips.hpp"
 #include "matching/mode_name.hpp"
@@ -125,7 +123,7 @@ DiagnosisInputs prepare_diagnosis(const DiagnosisConfig& config, const Diagnosis
   const double least_mac = config.least_mac > 0.0 || !inputs.bar_stays ? config.least_mac : kAlike;
   if (const auto unpaired = diagnosis::leave_out_unpaired(least_mac, config.scatter, *inputs.reduced, inputs.features))
     inputs.account.push_back(*unpaired);
-  diagnosis::hold_out(config.hold_out, config.with_form(inputs.features), inputs.features);
+  diagnosis::hold_out(config.hold_out, inputs.features);
   return inputs;
 }
 
@@ -140,36 +138,6 @@ std::map<std::string, int> bound_modes(const DiagnosisConfig& config, const Diag
     if (bound.size() == before && unmeasured != nullptr) unmeasured->push_back(pair.experimental);
   }
   return bound;
-}
-
-Threshold find_threshold(const DiagnosisConfig& config, const DiagnosisInputs& inputs, const diagnosis::Inference& inference,
-                         runner::StepContext& context) {
-  std::filesystem::path folder = config.threshold_cache;
-  if (folder.empty()) folder = (context.results.empty() ? context.out.parent_path() : context.results) / "thresholds";
-  const std::string key = diagnosis::threshold_key({config.alpha, config.nulls, inputs.basis_modes, config.most_refined,
-                                                    config.search.refine_within, config.scatter, config.pairs},
-                                                   *inputs.reduced, inputs.features, inputs.catalogue, inference, context.seed);
-  const auto file = diagnosis::threshold_file(folder, key);
-  // The same words whether they were kept or run now: a second run gives the same bytes.
-  const std::string from = fmt::format("{} nulls, {}", config.nulls, file.filename().string());
-  if (const auto kept = diagnosis::read_threshold(file, key)) {
-    context.input(file);
-    return {*kept, from};
-  }
-  if (config.nulls <= 0) return {diagnosis::analytic_threshold(inference, config.alpha), "analytic tail"};
-  diagnosis::SearchOptions search = config.search;
-  search.most_refined = static_cast<int>(config.most_refined);
-  const auto nulls = diagnosis::run_null_calibration(
-      *inputs.reduced, inputs.features, config.scatter, inputs.catalogue, search, static_cast<int>(config.nulls),
-      context.seed + 17, [&](int done) { context.progress("null data sets", done, static_cast<double>(config.nulls)); },
-      bound_modes(config, inputs));
-  std::vector<double> sorted = nulls.log_odds;
-  std::sort(sorted.begin(), sorted.end());
-  const auto at = static_cast<std::size_t>(std::ceil((1.0 - config.alpha) * static_cast<double>(sorted.size()))) - 1;
-  const double threshold = sorted[std::min(at, sorted.size() - 1)];
-  diagnosis::write_threshold(threshold, config.nulls, 1.0 - config.alpha, file, key);
-  context.input(file);
-  return {diagnosis::read_threshold(file, key).value_or(threshold), from};  // as it is kept, to six decimals
 }
 
 }  // namespace twindeck::steps

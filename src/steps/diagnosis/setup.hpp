@@ -38,15 +38,6 @@ struct DiagnosisInputs {
 [[nodiscard]] DiagnosisInputs prepare_diagnosis(const DiagnosisConfig& config, const DiagnosisFiles& files,
                                                 runner::StepContext& context);
 
-/// Threshold of the largest log odds: of a cached null calibration where the same model, rows (without their values), catalogue
-/// and rule were run before, of one run now where the configuration asks for it, else the analytic tail.
-struct Threshold {
-  double value;
-  std::string from;
-};
-[[nodiscard]] Threshold find_threshold(const DiagnosisConfig& config, const DiagnosisInputs& inputs,
-                                       const diagnosis::Inference& inference, runner::StepContext& context);
-
 /// Positions of the computed modes that the configuration gives to measured ones, by the mode's name in rows.csv.
 /// @param unmeasured  gets those that no row names
 [[nodiscard]] std::map<std::string, int> bound_modes(const DiagnosisConfig& config, const DiagnosisInputs& inputs,

@@ -29,7 +29,6 @@ void add_effects(HeldNumbers& out, const diagnosis::Diagnosis& result) {
     for (const std::string& member : effect.cluster) name += " " + member;
     out.add(name + " log odds", effect.log_odds);
     out.add(name + " probability", effect.probability);
-    out.add(name + " within_m", effect.within_m);
     for (const diagnosis::EffectParameter& p : effect.parameters) {
       out.add(name + " " + p.name, p.value);
       out.add(name + " " + p.name + " low", p.low);
@@ -44,10 +43,9 @@ void add_ranking(HeldNumbers& out, const std::vector<diagnosis::Scored>& ranking
     const diagnosis::Scored& scored = ranking[i];
     const std::string name = fmt::format("entry {} {}", i + 1, scored.candidate->id());
     out.add(name + " screen", scored.screen);
-    if (scored.weighed()) out.add(name + " log odds", scored.log_odds);
+    out.add(name + " log odds", scored.log_odds);
     out.add(name + " remaining", scored.remaining);
     out.add(name + " magnitudes", scored.a);
-    out.add(name + " covariance", scored.a_covariance.reshaped());
   }
 }
 

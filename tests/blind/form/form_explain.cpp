@@ -62,7 +62,7 @@ void print_evidence(const FormCase& hidden, const diagnosis::Diagnosis& result) 
     const bool truth = names(hidden.truth.layout, hidden.hidden.sought, entry.candidate->id());
     if (++place > kEntries && !truth) continue;
     fmt::print("  {}{:>4} {:<28} D {:>8.1f} chi2 {:>8.1f}\n", truth ? "*" : " ", place, entry.candidate->id(), entry.log_odds,
-               entry.chi_squared);
+               entry.remaining);
   }
 }
 

@@ -4,8 +4,7 @@
 /// rates. blind_form --count N [first seed]: what N trials hide and how far their form errors reach, without a diagnosis.
 /// A run's last two words --held FILE hold the numbers of its diagnoses against a file (exit code 1 when one moved), --hold
 /// FILE writes the file anew. blind_form --explain SEED …: the form, its main features and the evidence of single trials.
-/// TWINDECK_BLIND_SECONDS: no trial starts after so many seconds; the table is of those that ran. TWINDECK_BLIND_FORM=one: the
-/// trials are diagnosed as with form = "one".
+/// TWINDECK_BLIND_SECONDS: no trial starts after so many seconds; the table is of those that ran.
 /// Seeds 9000 to 9099 were looked at while the bench was written: they count for nothing.
 #include <fmt/format.h>
 

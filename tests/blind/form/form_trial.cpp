@@ -2,13 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
 #include <ctime>
 
 #include "blind/form/diagnosis_numbers.hpp"
 #include "blind/form/measurement.hpp"
 #include "diagnosis/files/catalogue_files.hpp"
-#include "diagnosis/form_diagnosis.hpp"
 #include "diagnosis/law_diagnosis.hpp"
 #include "diagnosis/reduction/diagnosed_model.hpp"
 #include "test_places.hpp"
@@ -201,10 +199,7 @@ void run_form_case(const FormCase& hidden, FormScore& score, const std::function
   const diagnosis::FeatureMap map(reduced, hidden.features, {});
   const diagnosis::Instantiated entries = diagnosis::instantiate(catalogue(), reduced, hidden.features);
   const diagnosis::Inference inference(map, entries.candidates);
-  const char* form = std::getenv("TWINDECK_BLIND_FORM");
-  const bool by_law = form != nullptr && std::string(form) == "one";
-  const diagnosis::Diagnosis result = by_law ? diagnosis::diagnose_by_law(inference, {}, hidden.seed)
-                                             : diagnosis::diagnose_with_form(inference, {}, hidden.seed);
+  const diagnosis::Diagnosis result = diagnosis::diagnose(inference, {}, hidden.seed);
   score.seconds = cpu_seconds() - begin;
   score_answer(hidden, result, score);
   score.numbers = numbers_of(hidden.seed, result);

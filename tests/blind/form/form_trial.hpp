@@ -52,7 +52,7 @@ struct FormScore {
 
 /// What is known of a trial before its diagnosis.
 [[nodiscard]] FormScore prepare_score(const FormCase& hidden);
-/// Runs the diagnosis with the form error on and nothing set by hand, and scores it.
+/// Runs the diagnosis with nothing set by hand, and scores it.
 /// @param look  at the diagnosis while what it refers to lives; may be empty @throws what the diagnosis throws
 void run_form_case(const FormCase& hidden, FormScore& score, const std::function<void(const diagnosis::Diagnosis&)>& look = {});
 /// Prints what a trial hides, which features of the form make its error, and the evidence of the diagnosis.

@@ -10,8 +10,8 @@
 #include <string>
 #include <vector>
 
-#include "diagnosis/diagnose.hpp"
 #include "diagnosis/files/catalogue_files.hpp"
+#include "diagnosis/law_diagnosis.hpp"
 #include "test_places.hpp"
 
 namespace twindeck::tests {
@@ -214,10 +214,9 @@ inline Examined examine(const Chain& chain, const diagnosis::FeatureSet& feature
 }
 
 inline Examined diagnosed(const Chain& chain, const diagnosis::FeatureSet& features,
-                          std::vector<diagnosis::Hypothesis> hypotheses, const diagnosis::ScatterOptions& scatter = {}) {
+                          std::vector<diagnosis::Hypothesis> hypotheses, const diagnosis::ScatterOptions& scatter = {},
+                          const diagnosis::DiagnoseOptions& options = {}) {
   Examined out = examine(chain, features, std::move(hypotheses), scatter);
-  diagnosis::DiagnoseOptions options;
-  options.threshold = diagnosis::analytic_threshold(*out.inference, options.alpha);
   out.result = diagnosis::diagnose(*out.inference, options, 1);
   return out;
 }

@@ -45,40 +45,6 @@ TEST(Diagnose, TwoCausesAreFoundOneAfterTheOther) {
   EXPECT_EQ(names, (std::vector<std::string>{"gain@channel:c8", "stiffness@group:g2"}));
 }
 
-TEST(Diagnose, AFaintOscillatorFollowsNoOtherCause) {
-  // A mass that the catalogue knows as an oscillator only: as a further cause it needs more than a cause that is tuned to
-  // nothing.
-  const Chain chain({.masses = 10});
-  std::mt19937_64 random(5);
-  ChainTruth truth = chain.scattered(random);
-  truth.gain[7] = 1.6;
-  truth.mass[4] *= 1.4;
-  const Examined e = examine(chain, chain.measure(truth, &random), catalogue({"gain", "osc"}));
-  diagnosis::DiagnoseOptions options;
-  options.threshold = diagnosis::analytic_threshold(*e.inference, options.alpha);
-  options.further_tuned = options.threshold;
-  const diagnosis::Diagnosis both = diagnosis::diagnose(*e.inference, options, 1);
-  ASSERT_EQ(both.effects.size(), 2u) << both.message;
-  ASSERT_EQ(both.effects[1].cause.candidate->hypothesis->id, "osc");
-  options.further_tuned = both.effects[1].log_odds + 1.0;
-  const diagnosis::Diagnosis one = diagnosis::diagnose(*e.inference, options, 1);
-  ASSERT_EQ(one.effects.size(), 1u) << one.message;
-  EXPECT_EQ(one.effects[0].cause.candidate->id(), "gain@channel:c8");
-  EXPECT_EQ(one.verdict, diagnosis::Verdict::unknown);
-}
-
-TEST(Diagnose, ANameIsTestedAtALevelOfItsOwn) {
-  const Chain chain({.masses = 10});
-  std::mt19937_64 random(3);
-  const Examined e = examine(chain, chain.measure(with_soft_spring(chain, random), &random), catalogue());
-  diagnosis::DiagnoseOptions options;
-  EXPECT_EQ(diagnosis::diagnose(*e.inference, options, 1).verdict, diagnosis::Verdict::named);
-  options.residual_alpha = 0.999;  // where nothing is named
-  EXPECT_EQ(diagnosis::diagnose(*e.inference, options, 1).verdict, diagnosis::Verdict::named);
-  options.residual_alpha_named = 0.999;
-  EXPECT_EQ(diagnosis::diagnose(*e.inference, options, 1).verdict, diagnosis::Verdict::unknown);
-}
-
 TEST(Diagnose, NothingIsFoundInNothing) {
   const Chain chain({.masses = 10});
   const auto hypotheses = catalogue();

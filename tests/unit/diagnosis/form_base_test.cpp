@@ -5,7 +5,6 @@
 #include <gtest/gtest.h>
 
 #include "chain.hpp"
-#include "diagnosis/form_diagnosis.hpp"
 
 namespace twindeck::tests {
 namespace {

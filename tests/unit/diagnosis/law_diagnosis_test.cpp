@@ -19,7 +19,7 @@ diagnosis::FeatureSet no_row_held_out(diagnosis::FeatureSet f) {
   return f;
 }
 
-diagnosis::Diagnosis by_law(const Examined& e) { return diagnosis::diagnose_by_law(*e.inference, {}, 1); }
+diagnosis::Diagnosis by_law(const Examined& e) { return diagnosis::diagnose(*e.inference, {}, 1); }
 
 diagnosis::LawSearch law_searched(const Examined& e) {
   const diagnosis::LawSetting setting{*e.inference, *e.inference, diagnosis::contrasts_of(e.map->features()),
@@ -227,6 +227,62 @@ TEST(DiagnoseByLaw, RowsThatAreTooExactAreRefusedByTheLaw) {
   no_floors.frequency_floor = no_floors.shape_floor = 0.0;
   const Examined e = examine(chain, no_row_held_out(chain.measure(chain.as_modelled())), catalogue({"mass"}), no_floors);
   EXPECT_THROW((void)by_law(e), InputError);
+}
+
+TEST(FormModes, AreThoseOfTheModelAndExchangeWithTheChannels) {
+  const Chain chain({.masses = 10, .modes = 5});
+  const Examined e = examine(chain, chain.measure(chain.as_modelled()), catalogue({"swap"}));
+  const auto base = e.map->base(Eigen::VectorXd::Zero(static_cast<Eigen::Index>(e.map->nuisances().size())));
+  const auto modes = e.map->form_modes(base, {});
+  ASSERT_EQ(modes.paired.size(), 5u);
+  // Mass-normalised shapes and frequencies of the dense eigenproblem.
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(chain.stiffness(chain.as_modelled()) / Chain::kMass);
+  for (int m = 0; m < 5; ++m) {
+    EXPECT_EQ(modes.paired[static_cast<std::size_t>(m)].model_mode, m);
+    EXPECT_NEAR(modes.modes.omega_rad_s[m] / std::sqrt(eigen.eigenvalues()[m]), 1.0, 1e-6);
+    const Eigen::VectorXd shape = eigen.eigenvectors().col(m) / std::sqrt(Chain::kMass);
+    EXPECT_NEAR(std::abs(modes.modes.shapes.col(m).dot(shape)) / shape.squaredNorm(), 1.0, 1e-6);
+  }
+  const auto& swap = e.entry("swap@channels:c3,c7");
+  const auto exchanged = e.map->form_modes(base, {{&swap, Eigen::VectorXd()}});
+  EXPECT_LT((exchanged.modes.shapes.row(2) - modes.modes.shapes.row(6)).norm(), 1e-12);
+  EXPECT_LT((exchanged.modes.shapes.row(6) - modes.modes.shapes.row(2)).norm(), 1e-12);
+  EXPECT_LT((exchanged.modes.shapes.row(4) - modes.modes.shapes.row(4)).norm(), 1e-12);
+}
+
+TEST(DiagnoseByLaw, ACauseWhereNoneMayBeTakenIsUnknown) {
+  const Chain chain({.masses = 10, .modes = 5});
+  ChainTruth truth = chain.as_modelled();
+  truth.gain[3] = -1.0;
+  const Examined e = examine(chain, no_row_held_out(chain.measure(truth)), catalogue({"pol"}));
+  diagnosis::DiagnoseOptions options;
+  options.most_causes = 0;
+  const diagnosis::Diagnosis out = diagnosis::diagnose(*e.inference, options, 1);
+  EXPECT_EQ(out.verdict, diagnosis::Verdict::unknown);
+  EXPECT_TRUE(out.effects.empty());
+  EXPECT_NE(out.message.find("most_causes allows none"), std::string::npos) << out.message;
+  EXPECT_NE(out.message.find("pol@channel:c4"), std::string::npos) << out.message;
+}
+
+TEST(DiagnoseByLaw, FindsASpringFarOutsideItsBounds) {
+  const Chain chain({.masses = 10});
+  std::mt19937_64 random(3);
+  ChainTruth truth = chain.scattered(random);
+  truth.spring[6] = 0.3;
+  const auto e = examine(chain, no_row_held_out(chain.measure(truth, &random)), catalogue());
+  const auto result = by_law(e);
+  ASSERT_FALSE(result.effects.empty()) << result.message;
+  const auto& effect = result.effects.front();
+  EXPECT_NE(std::find(effect.cluster.begin(), effect.cluster.end(), "stiffness@group:g6"), effect.cluster.end());
+  EXPECT_GT(result.form->gain.low, 0.0);
+  EXPECT_EQ(result.form->gain.blocks.size(), 8u);
+  if (effect.cause.candidate->id() == "stiffness@group:g6") {
+    EXPECT_LT(effect.parameters[0].low, 0.3);
+    EXPECT_GT(effect.parameters[0].high, 0.3);
+    EXPECT_NEAR(std::log(effect.parameters[0].value), std::log(0.3), 0.25);
+    // No narrower than the error of a size in a wrong model: 25 % of ln, at 1.645 deviations.
+    EXPECT_GT(std::log(effect.parameters[0].low / effect.parameters[0].value) / std::log(effect.parameters[0].value), 0.4);
+  }
 }
 
 TEST(DiagnoseByLaw, GivesTheSameTwice) {

@@ -82,7 +82,7 @@ TEST(HoldOut, ByConditionModeAndType) {
   const auto by = [](const std::vector<std::string>& rules) {
     FeatureSet f = two_days();
     f.rows[0].held_out = true;  // a mark gives way to rules
-    hold_out(rules, false, f);
+    hold_out(rules, f);
     return held(f);
   };
   EXPECT_EQ(by({"warm"}), (std::vector<int>{6, 7, 8, 9, 10, 11}));
@@ -98,24 +98,29 @@ TEST(HoldOut, EverySecondModeInAscendingFrequency) {
   f.rows.erase(f.rows.begin(), f.rows.end());
   for (const double hertz : {3.0, 1.0, 4.0, 2.0})
     f.rows.push_back({RowType::frequency, std::to_string(static_cast<int>(hertz)), -1, "", 0, hertz, 0.01, false});
-  hold_out({"cold/every_second"}, false, f);
+  hold_out({"cold/every_second"}, f);
   EXPECT_EQ(held(f), (std::vector<int>{2, 3}));
 }
 
-TEST(HoldOut, WithoutRulesIsTheRuleOfTheMethodUnlessTheFormCompetes) {
-  // Four modes in the cold: the highest is held out.
+TEST(HoldOut, WithoutRulesNoModeIsAndOfLoadTestsTheWarmestIs) {
   FeatureSet f = two_days();
-  f.rows.push_back({RowType::frequency, "4", -1, "", 0, 4.0, 0.01, false});
-  hold_out({}, true, f);
+  hold_out({}, f);
   EXPECT_TRUE(held(f).empty());
-  hold_out({}, false, f);
-  EXPECT_EQ(held(f), std::vector<int>{13});
+  // Load tests alone at three temperatures: those of the highest are held out.
+  f.rows.clear();
+  f.conditions.resize(3);
+  for (int c = 0; c < 3; ++c) {
+    f.conditions[static_cast<std::size_t>(c)].temperature_C = 10.0 * c;
+    f.rows.push_back({RowType::static_strain, "", -1, "", c, 1e-4, 1e-6, false});
+  }
+  hold_out({}, f);
+  EXPECT_EQ(held(f), std::vector<int>{2});
 }
 
 TEST(HoldOut, RefusesARuleThatMatchesNothing) {
   for (const char* rule : {"hot", "warm/4", "warm/3/rms_m_s2", "hot/every_second"}) {
     FeatureSet f = two_days();
-    EXPECT_THROW(hold_out({rule}, false, f), InputError) << rule;
+    EXPECT_THROW(hold_out({rule}, f), InputError) << rule;
   }
 }
 

@@ -3,8 +3,8 @@
 #include <gtest/gtest.h>
 
 #include "chain.hpp"
-#include "diagnosis/form_diagnosis.hpp"
 #include "diagnosis/form_frame.hpp"
+#include "diagnosis/law_diagnosis.hpp"
 
 namespace twindeck::tests {
 namespace {
@@ -27,7 +27,7 @@ diagnosis::FeatureSet two_states(diagnosis::FeatureSet before, const diagnosis::
   return before;
 }
 
-diagnosis::Diagnosis asked(const Examined& e) { return diagnosis::diagnose_with_form(*e.inference, {}, 1); }
+diagnosis::Diagnosis asked(const Examined& e) { return diagnosis::diagnose(*e.inference, {}, 1); }
 
 bool in_a_set(const diagnosis::Diagnosis& result, const std::string& id) {
   return std::any_of(result.effects.begin(), result.effects.end(), [&](const diagnosis::Effect& effect) {

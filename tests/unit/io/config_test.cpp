@@ -39,7 +39,8 @@ struct Sample {
                   .number("damping", damper.damping_N_s_m, "N s/m", non_negative(), "constant");
               return element;
             },
-            "the dampers");
+            "the dampers")
+        .retired("old_scale", "is a key of an earlier version", "set masses instead");
     return table;
   }
 };
@@ -81,6 +82,14 @@ name = "A2"
 [[damper]]
 name = "A3"
 )";
+
+// Oracle: the words that the key is retired with.
+TEST_F(ConfigTest, AKeyOfAnEarlierVersionIsRefusedWithWhatReplacesIt) {
+  EXPECT_EQ(load("\nold_scale = 2\n"), "c.toml:2: old_scale: is a key of an earlier version; set masses instead");
+  EXPECT_EQ(set("old_scale=2"), "--set: old_scale: is a key of an earlier version; set masses instead");
+  Sample sample;
+  EXPECT_EQ(sample.fields().print().find("old_scale"), std::string::npos);
+}
 
 // Oracle: the values written in kFull, converted by hand.
 TEST_F(ConfigTest, ReadsEveryKindOfField) {

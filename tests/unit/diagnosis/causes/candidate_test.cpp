@@ -313,9 +313,6 @@ TEST(Instantiate, OfThreeStatesPartsChangeInOneOrFromOneOn) {
   double sum = 0.0;
   for (const auto& c : found.candidates) sum += c->hypothesis->id == "stiff" ? std::exp(c->log_prior) : 0.0;
   EXPECT_NEAR(sum, 1.0 / 3.0, 1e-12);
-  const Candidate laid = elsewhere(*found.candidates[2], "somewhere", {}, f);
-  EXPECT_EQ(laid.key(), "stiff@somewhere from state mid on");
-  EXPECT_TRUE(laid.acts_in(f.conditions[2]));
 }
 
 TEST(Instantiate, DampersOfATypeAreOneLocation) {
@@ -364,24 +361,6 @@ TEST(CandidateValue, IsANumberAnUnknownOrANumberOfThePlace) {
   EXPECT_EQ(c.value({2.0, "friction", 0}, a), 0.0);  // a number that this place does not have
   EXPECT_THROW((void)c.value({1.0, "$r", 0}, a), InputError);
   EXPECT_THROW((void)c.value({1.0, "nothing", 0}, a), InputError);
-}
-
-TEST(Elsewhere, IsTheFamilyWithTheBoundsOfItsPlace) {
-  const RowModel model;
-  Hypothesis h = family("h", "nodes", "element.spring");
-  h.unknowns = {unknown("stiffness", 0.01, 10.0, true)};
-  h.unknowns[0].low.name = h.unknowns[0].high.name = "k_drive";
-  const FeatureSet f = two_modes_at_channels();
-  const std::vector<Hypothesis> all = {h};
-  const auto found = instantiate(all, *model.reduced, f);
-  const Candidate& first = *found.candidates.at(0);
-  const Candidate laid = elsewhere(first, "node:2", {found.candidates.at(1)->places[0]}, f);
-  EXPECT_EQ(laid.id(), "h@node:2");
-  EXPECT_EQ(laid.refines, &first);
-  EXPECT_EQ(laid.log_prior, first.log_prior);
-  EXPECT_EQ(laid.low, found.candidates.at(1)->low);
-  EXPECT_NE(laid.low, first.low);
-  EXPECT_EQ(elsewhere(laid, "node:3", {found.candidates.at(2)->places[0]}, f).refines, &first);  // not of one that was laid
 }
 
 TEST(NumberOf, ReadsTheKeyThatIsAsked) {

@@ -128,16 +128,6 @@ TEST(Contrast, RunsFromZeroToOneAtTheExtreme) {
   EXPECT_FALSE(diagnosis::contrast_of("people", {10.0, 10.0, std::nullopt}));
 }
 
-TEST(Contrast, ChangesAreFrequenciesAndHalfAsMuchOfShapesTimesItsWeight) {
-  FormColumns form{MatrixXd::Zero(4, 1), MatrixXd::Zero(4, 2), MatrixXd::Zero(4, 0)};
-  form.frequency << 1, 0, 1, 0;
-  form.shape << 0, 0, 2, 4, 0, 0, 6, 8;
-  const diagnosis::Contrast contrast{"amplitude_m", Eigen::Vector2d(0.5, 1.0)};
-  MatrixXd expected(4, 3);
-  expected << 0.5, 0, 0, 0, 0.5, 1, 1, 0, 0, 0, 3, 4;
-  EXPECT_EQ(diagnosis::change_columns(form, contrast, {0, 0, 1, 1}), expected);
-}
-
 TEST(CloseRotations, CoverGapsBetweenSixAndTwelvePerCentOfOneCondition) {
   const std::vector<PairedMode> paired = {{0, 0, -1, {0, 1}, {0, 1}}, {1, 0, -1, {2, 3}, {0, 1}}, {1, 1, -1, {4, 5}, {0, 1}}};
   VectorXd values(6);

@@ -5,7 +5,6 @@
 #include <gtest/gtest.h>
 
 #include "diagnosis/reduction/diagnosed_model.hpp"
-#include "diagnosis/reduction/finer_places.hpp"
 #include "fe/assembly_parameters.hpp"
 #include "unit/diagnosis/found_causes.hpp"
 #include "unit/diagnosis/matrix_model.hpp"
@@ -143,19 +142,6 @@ TEST(ParameterLaw, OfGroupsIsWhatTheirElementsAndSpringsBecome) {
   // "rail" is beams of a material and springs, each with a parameter of its own; a parameter's own place has its powers.
   const DeckPlaces here(small_deck()), there(fe::with_parameters(small_deck(), moved_values()));
   expect_places(here, there, moved_values(), {"groups"});
-}
-
-TEST(ParameterLaw, OfHalvesIsWhatTheirElementsBecome) {
-  const DeckPlaces here(small_deck(), 1), there(fe::with_parameters(small_deck(), moved_values()), 1);
-  const auto halves = [](const DeckPlaces& of) {
-    return diagnosis::halves_of(of.prepared->structure(), of.places, of.places.sets.at("elements")[0]);
-  };
-  const std::vector<Place> mine = halves(here), theirs = halves(there);
-  ASSERT_EQ(mine.size(), 2U);
-  for (std::size_t i = 0; i < 2; ++i) {
-    expect_law(mine[i].stiffness, mine[i].stiffness_law, moved_values(), theirs[i].stiffness.whole(), mine[i].id);
-    expect_law(mine[i].mass, mine[i].mass_law, moved_values(), theirs[i].mass.whole(), mine[i].id);
-  }
 }
 
 TEST(ParameterLaw, HasPartsOnlyWhereAPlaceIsMixed) {

@@ -66,15 +66,13 @@ TEST(ToldSentences, IntervalsSayWhatEachEndIsKnownTo) {
   result.verdict = Verdict::named;
   Effect e = Told::effect(told.first, 0.5);
   e.state = "repaired";
-  e.within_m = 2.5;
   e.parameters = {EffectParameter{"k_N_m", "N/m", 5.0, 4.0, 6.0}, EffectParameter{"Fc", "N", 5.0, 181.0, 600.0, false, true},
                   EffectParameter{"mass", "kg", 5.0, 1.0, 60.0, true}, EffectParameter{"a_b", "-", 5.0, 1.0, 60.0, true, true},
                   EffectParameter{"count", "", 2.0, 2.0, 2.0}};
   result.effects = {e};
-  EXPECT_EQ(
-      told.said(result).why,
-      "It is soft (state repaired). The place is known to 2.5 m. 90 % intervals: k 4 N/m to 6 N/m; Fc at least 181 N; mass "
-      "at most 60 kg; a b not known.");
+  EXPECT_EQ(told.said(result).why,
+            "It is soft (state repaired). 90 % intervals: k 4 N/m to 6 N/m; Fc at least 181 N; mass "
+            "at most 60 kg; a b not known.");
 }
 
 TEST(ToldSentences, StatesAreSaidFromTheFirstOn) {
