@@ -75,6 +75,7 @@ MatrixXd along(const Contrast& contrast, const FeatureSet& features, const std::
   for (Index r = 0; r < weight.size(); ++r)
     weight[r] = contrast.weight[features.rows[static_cast<std::size_t>(rows[static_cast<std::size_t>(r)])].condition];
   weight.array() -= std::max(weight.minCoeff(), 0.0);
+  if (weight.isZero(0.0)) return {};
   MatrixXd out(weight.size(), weight.size());
   for (Index i = 0; i < out.rows(); ++i)
     for (Index j = 0; j < out.cols(); ++j)
@@ -118,8 +119,10 @@ LawSystem law_system(const Inference& plain, const Fit& fit, const std::vector<C
                  shape.cols() > shape.rows() ? columns_of(covariance_of(shape)) : shape, kUnit * form.kinks(rows, Eigen::all),
                  std::move(gain)};
   const MatrixXd all = covariance_of(beside({out.classes[kFrequencies], shape, out.classes[kKinks]}, std::ssize(rows)));
-  for (const Contrast& contrast : contrasts)
-    out.classes.push_back(columns_of(all.cwiseProduct(along(contrast, map.features(), rows))));
+  for (const Contrast& contrast : contrasts) {
+    const MatrixXd share = along(contrast, map.features(), rows);
+    out.classes.push_back(share.size() > 0 ? columns_of(all.cwiseProduct(share)) : MatrixXd(all.rows(), 0));
+  }
   VectorXd x = fit.map.x;
   x.tail(asked).setZero();
   out.residual = map.values()(rows) - fit.map.g + j * x;

@@ -18,6 +18,7 @@ enum LawClass : int { kFrequencies, kShapes, kKinks, kGains, kFirstContrast };
 /// identification, free scales of shapes, parameters and element scatter with their priors, rotations of close modes, and
 /// accepted causes. The coordinates of the last `tested` causes of the fit become the signatures (per unit of their
 /// coordinates) and leave the residual.
+/// A contrast whose weights are all zero has no columns.
 /// @param plain  with the covariance of identification alone
 [[nodiscard]] LawSystem law_system(const Inference& plain, const Fit& fit, const std::vector<Contrast>& contrasts,
                                    std::size_t tested = 0);

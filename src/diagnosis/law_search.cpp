@@ -98,6 +98,13 @@ void score_at_base(const OneLaw& law, const LawSearch& search, LawAccount& accou
   account.scored = true;
 }
 
+bool acts_in_contrast(const LawSearch& search, const LawAccount& account, int contrast) {
+  return std::any_of(account.members.begin(), account.members.end(), [&](int m) {
+    const std::vector<int>& own = search.entries[static_cast<std::size_t>(m)].contrasts;
+    return std::find(own.begin(), own.end(), contrast) != own.end();
+  });
+}
+
 /// A set with its causes in the model, fitted from each start; the largest evidence counts.
 void refine_by_law(const LawSetting& setting, const LawSearch& search, LawAccount& account,
                    const std::vector<VectorXd>& starts) {
@@ -111,12 +118,15 @@ void refine_by_law(const LawSetting& setting, const LawSearch& search, LawAccoun
     for (std::size_t c = 0; c < acts.size(); ++c) acts[c] = acts[c] || own[c];
   }
   VectorXd found_before;
+  std::vector<Contrast> contrasts = setting.contrasts;  // those of the set alone: the others' classes are absent
+  for (std::size_t c = 0; c < contrasts.size(); ++c)
+    if (!acts_in_contrast(search, account, static_cast<int>(c))) contrasts[c].weight.setZero();
   for (const VectorXd& x : starts) {
     Fit with = setting.informed.fit(start, x);
     if (!with.made()) continue;
     if (found_before.size() > 0 && (with.map.x - found_before).norm() < kOneFit) continue;
     found_before = with.map.x;
-    auto system = std::make_shared<LawSystem>(law_system(setting.plain, with, setting.contrasts, account.members.size()));
+    auto system = std::make_shared<LawSystem>(law_system(setting.plain, with, contrasts, account.members.size()));
     if (!can_be_weighed(*system)) continue;  // costs the entry, not the results
     const OneLaw law(*system);
     if (!law.sound()) continue;
