@@ -27,9 +27,8 @@ using Eigen::VectorXd;
 
 constexpr double kUnitOfClasses = 0.01, kUnitOfKinks = 0.0025;  // [-] of a scale of 1 (law_frame.hpp)
 constexpr double kFarOff = 0.08;                                // of frequencies: a person is told
-constexpr double kErrorOfSizes = 0.25;   // deviation of ln(size): a law of the rows does not know the units of a wrong model
-constexpr double kMostLeft = 1.0 / 3.0;  // of what changed, RMS: a cause that leaves more is at most a part of it
-constexpr double kGuarded = 15.0;        // nats of the leader: accounts whose predictions are weighed
+constexpr double kErrorOfSizes = 0.25;  // deviation of ln(size): a law of the rows does not know the units of a wrong model
+constexpr double kGuarded = 15.0;       // nats of the leader: accounts whose predictions are weighed
 
 Scored as_scored(const LawSearch& search, const LawAccount& account, const Inference& informed) {
   const LawEntry& entry = search.entries[static_cast<std::size_t>(account.members.front())];
@@ -197,15 +196,10 @@ class ByLaw {
   /// A leading set that leaves more than a part of what changed is no account of it, though nothing else may come nearer.
   void refuse_partial() {
     if (out_.verdict != Verdict::named && out_.verdict != Verdict::ambiguous) return;
-    const LawAccount& leader = search_.accounts.front();
-    for (std::size_t c = 0; c < search_.something_else.size(); ++c) {
-      const auto at = static_cast<Index>(kFirstContrast) + static_cast<Index>(c);
-      const double left = leader.evidence.tau[at], whole = search_.something_else[c].tau[at];
-      if (!(left > kMostLeft * whole)) continue;
-      out_.verdict = Verdict::unknown;
-      reason_ = fmt::format("the best cause leaves {:.0f} % of what changed", 100.0 * left / whole);
-      return;
-    }
+    const double left = left_of_change(search_, search_.accounts.front());
+    if (!(left > kMostLeft)) return;
+    out_.verdict = Verdict::unknown;
+    reason_ = fmt::format("the best cause leaves {:.0f} % of what changed", 100.0 * left);
   }
 
   [[nodiscard]] std::string reason_of_verdict() const {

@@ -225,7 +225,9 @@ void look_beside_leader(const LawSetting& setting, LawSearch& search) {
   for (std::size_t size = 1; size < kMostInASet; ++size) {
     const auto best = std::find_if(search.accounts.begin(), search.accounts.end(),
                                    [&](const LawAccount& a) { return a.members.size() == size && a.refined(); });
-    if (best == search.accounts.end() || (size > 1 && best != search.accounts.begin())) return;
+    const bool leads = best == search.accounts.begin();
+    if (best == search.accounts.end() || (size > 1 && !leads && left_of_change(search, search.accounts.front()) < kMostLeft))
+      return;
     const LawAccount leader = *best;
     std::vector<LawAccount> sets = sets_beside(setting, search, leader);
     const VectorXd x = leader.with.map.x.head(static_cast<Index>(setting.plain.map().nuisances().size()));
@@ -277,6 +279,15 @@ std::vector<LawAccount*> leading_accounts(LawSearch& search, const std::set<int>
 }
 
 }  // namespace
+
+double left_of_change(const LawSearch& search, const LawAccount& account) {
+  double most = 0.0;
+  for (std::size_t c = 0; c < search.something_else.size(); ++c) {
+    const auto at = static_cast<Index>(kFirstContrast) + static_cast<Index>(c);
+    if (account.evidence.tau[at] > 0.0) most = std::max(most, account.evidence.tau[at] / search.something_else[c].tau[at]);
+  }
+  return most;
+}
 
 LawSearch search_by_law(const LawSetting& setting, const Fit& base) {
   LawSearch out;

@@ -57,6 +57,11 @@ struct LawSearch {
   std::vector<LawAccount> accounts;  ///< the best first
 };
 
+/// Most that an account may leave of what changed, RMS: one that leaves more is at most a part of it.
+constexpr double kMostLeft = 1.0 / 3.0;
+/// Scale of what an account leaves over, as a part of that of something else without it: the largest of its contrasts.
+[[nodiscard]] double left_of_change(const LawSearch& search, const LawAccount& account);
+
 [[nodiscard]] LawSearch search_by_law(const LawSetting& setting, const Fit& base);
 
 /// Whether something is wrong with a channel, so that it shows in all modes.

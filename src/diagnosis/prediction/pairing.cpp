@@ -62,15 +62,12 @@ VectorXd likeness(const MatrixXcd& shapes, const VectorXcd& measured) {
   return mac;
 }
 
-std::vector<std::size_t> Predictor::told_entries(const MeasuredMode& measured) const {
-  std::vector<std::size_t> out;
-  for (std::size_t k = 0; k < measured.real_rows.size(); ++k)
-    if (!map_.features().rows[static_cast<std::size_t>(measured.real_rows[k])].held_out) out.push_back(k);
-  return out;
+bool Predictor::may_be_none(const MeasuredMode& measured) const {
+  return measured.real_rows.size() >= 2 && !map_.features().rows[static_cast<std::size_t>(measured.real_rows.front())].held_out;
 }
 
 const MeasuredMode& Predictor::shaped_like(const MeasuredMode& measured) const {
-  const auto has_shape = [&](const MeasuredMode& m) { return told_entries(m).size() >= 2; };
+  const auto has_shape = [](const MeasuredMode& m) { return m.real_rows.size() >= 2; };
   const MeasuredMode* shaped = &measured;
   if (!has_shape(measured))
     for (const MeasuredMode& other : map_.modes_)
@@ -97,18 +94,14 @@ const MeasuredMode& Predictor::shaped_like(const MeasuredMode& measured) const {
 }
 
 VectorXd Predictor::unlike_measured(const MeasuredMode& shaped, const SolvedState& state) {
-  const std::vector<std::size_t> told = told_entries(shaped);
-  VectorXcd y(std::ssize(told));
-  std::vector<int> channels;
-  for (std::size_t i = 0; i < told.size(); ++i) {
-    const std::size_t k = told[i];
+  VectorXcd y(static_cast<Index>(shaped.real_rows.size()));
+  for (std::size_t k = 0; k < shaped.real_rows.size(); ++k) {
     Complex value = map_.values_[shaped.real_rows[k]];
     for (std::size_t q = 0; q < shaped.imag_rows.size(); ++q)
       if (shaped.imag_channels[q] == shaped.real_channels[k]) value += Complex(0.0, map_.values_[shaped.imag_rows[q]]);
-    y[static_cast<Index>(i)] = value;
-    channels.push_back(shaped.real_channels[k]);
+    y[static_cast<Index>(k)] = value;
   }
-  const MatrixXcd moved = motion(state)(channels, Eigen::all);
+  const MatrixXcd moved = motion(state)(shaped.real_channels, Eigen::all);
   VectorXd unlike = 1.0 - likeness(moved, y).array();
   const VectorXd own =
       moved.colwise().squaredNorm();  // a shape was measured, so it was none of those at rest, however near in frequency
@@ -168,7 +161,7 @@ void Predictor::pair(const std::vector<int>& conditions) {
     here.push_back(m);
     VectorXd& sum = cost.try_emplace(measured.label, VectorXd::Zero(n)).first->second;
     double& open = cost_of_none[measured.label];
-    open += told_entries(measured).size() >= 2 ? kNoCounterpart : kNever;
+    open += may_be_none(measured) ? kNoCounterpart : kNever;
     if (std::find(labels.begin(), labels.end(), measured.label) == labels.end()) labels.push_back(measured.label);
     const bool first = map_.features().conditions[static_cast<std::size_t>(measured.condition)].state == map_.states_.front();
     sum += far_from_measured(measured, state, first ? kFrequencyWidth : kChangedWidth);
@@ -177,11 +170,11 @@ void Predictor::pair(const std::vector<int>& conditions) {
     const MeasuredMode& shaped = shaped_like(measured);
     // Names of modes that are bound to the model's are those of the first state.
     const auto bound = first ? map_.bound_modes_.find(measured.label) : map_.bound_modes_.end();
-    if (told_entries(shaped).size() >= 2) {
+    if (shaped.real_rows.size() >= 2) {
       VectorXd unlike = unlike_measured(shaped, state);
       for (double& u : unlike)
-        if (u > 1.0 - kLeastAlike && u <= 1.0) u = 2.0 * kNoCounterpart / kShapeHere;
-      sum += (told_entries(measured).size() >= 2 ? kShapeHere : kShapeElsewhere) * unlike;
+        if (may_be_none(measured) && u > 1.0 - kLeastAlike && u <= 1.0) u = 2.0 * kNoCounterpart / kShapeHere;
+      sum += (measured.real_rows.size() >= 2 ? kShapeHere : kShapeElsewhere) * unlike;
     } else if (bound != map_.bound_modes_.end() && bound->second < map_.model().mode_coordinates.cols()) {
       // No shape tells: the mode of the structure as it stands that the label was given, followed by the likeness of shapes.
       VectorXd& unlike = by_shape[measured.label];

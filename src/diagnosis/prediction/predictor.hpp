@@ -139,8 +139,9 @@ class Predictor {
   [[nodiscard]] const MeasuredMode& shaped_like(const MeasuredMode& measured) const;
   /// 1 - MAC of each mode of a state with a measured shape (n_modes).
   [[nodiscard]] Eigen::VectorXd unlike_measured(const MeasuredMode& shaped, const SolvedState& state);
-  /// Entries of a measured shape that tell which mode it is: those that are not held out.
-  [[nodiscard]] std::vector<std::size_t> told_entries(const MeasuredMode& measured) const;
+  /// Whether a measured mode may be none of the model's: its shape tells that. What is held out is always held against the
+  /// model.
+  [[nodiscard]] bool may_be_none(const MeasuredMode& measured) const;
   /// Steps of frequency and damping between a measured mode and each mode of a state (n_modes).
   [[nodiscard]] Eigen::VectorXd far_from_measured(const MeasuredMode& measured, const SolvedState& state, double width) const;
   /// The same with a mode of the structure as it stands, by the whole shape (n_modes).
