@@ -155,7 +155,7 @@ TEST(Table, IsAsLargeAsPromised) {
     const bool first = said.insert(all + (c.program ? "|program" : "") + (c.own_out ? "|own_out" : "")).second;
     EXPECT_TRUE(first) << c.name << " is the same as another case";
   }
-  EXPECT_EQ(steps.size(), 10U);
+  EXPECT_EQ(steps.size(), 11U);
   for (const auto& names : {open_cases(), computed_cases()})
     for (const std::string& name : names)
       EXPECT_TRUE(std::any_of(cases().begin(), cases().end(), [&](const Case& c) { return c.name == name; }))
