@@ -77,6 +77,7 @@ class Conclusions(CheckCase):
         rows = made_up_study.read_rows(folder / "leave_one_out.csv")
         for name, error in (("leave_one_out", 9.0), ("leave_one_out_regularised", -5.0)):
             made_up_study.write_rows(folder / f"{name}.csv", list(rows[0]), [list({**r, "error_predicted_pct": error}.values()) for r in rows])
+        made_up_study.write_rows(folder / "regularised.csv", ["parameter"], [["rho_1"]])
         made_up_study.write_manifest(folder)
         self.assertEqual(self.run_command("tables")[0], 0)
         self.told()
