@@ -70,7 +70,8 @@ OF_VIRTUAL = $(MAKE) --no-print-directory -f $(PRODUCT)Makefile STUDY=$(VIRTUAL)
 VIRTUAL_EVENTS := $(RESULTS)_virtual/s0_campaign/manifest.json
 VIRTUAL_PAGE := $(RESULTS)_virtual/report/report.html
 INPUTS_s8_validation += $(VIRTUAL_EVENTS)
-OPTIONS_s8_validation := --campaign $(RESULTS)_virtual/s0_campaign
+# The configuration names the campaign where the results are in their own place.
+OPTIONS_s8_validation := $(if $(filter results/$(STUDY),$(RESULTS)),,--campaign $(RESULTS)_virtual/s0_campaign)
 $(VIRTUAL_EVENTS) $(VIRTUAL_PAGE): FORCE $(if $(NO_BUILD),,build)
 	+@$(OF_VIRTUAL) $@ $(if $(filter executables,$(EXECUTABLES)),NO_BUILD=1)
 $(VIRTUAL_PAGE): $(VIRTUAL_EVENTS)
@@ -81,7 +82,6 @@ OF_VIRTUAL_ALONE += $(foreach step,$(OF_VIRTUAL_ALONE),$(firstword $(subst _, ,$
 $(OF_VIRTUAL_ALONE):
 	+@$(OF_VIRTUAL) $@
 else ifneq ($(and $(filter s0_campaign,$(STEPS)),$(filter s9_diagnosis,$(STEPS))),)
-OPTIONS_s8_validation := --campaign $(RESULTS)/s0_campaign
 # Its truth is known. The scorer, which alone reads it, holds diagnosis and updating against what was hidden.
 SCORE := $(RESULTS)/score/score.json
 SCORED := $(filter s0_campaign s4_refinement s6_updating s9_diagnosis,$(STEPS))
