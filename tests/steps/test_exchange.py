@@ -308,7 +308,7 @@ class ImportedByHand(Folder):
         self.refused(cantilever().replace("20, 20, 21", "20, 20, 99"), "node 99 is not defined")
         self.refused(cantilever().replace("material=\"Steel S355\",", "material=steal,"), "material 'steal' is not defined")
         self.refused(cantilever().replace("elset=All, material", "elset=Al, material"), "no set is called 'Al' (did you mean 'All'?)")
-        self.refused(cantilever().replace("7850.,", "heavy"), "'heavy' is no finite number")
+        self.refused(cantilever().replace("7850.,", "heavy"), "field 1 is 'heavy', expected a number")
         self.refused(cantilever().replace(" 1, 20, 1\n", " 1, 19, 1\n"), "element 20 has no section")
         self.refused(cantilever().replace("1., 0., 0.", "0., 0., 1."), "lies along element 1")
         self.refused(cantilever().replace("Base, ENCASTRE", "Base, 1, 3, 0.01"), "prescribes a displacement that is not zero")

@@ -188,6 +188,8 @@ ReliabilityInputs read_reliability_inputs(const ReliabilityConfig& config, runne
   AerodynamicsConfig aerodynamics = read_step_7("", context);
   ValidationConfig validation;
   io::FieldTable fields = validation.fields();
+  std::string model_of_8, campaign_of_8;  // step 8 reads them: they are no inputs here
+  fields.text("model", model_of_8, "of step 8").text("campaign", campaign_of_8, "of step 8");
   fields.load(context.input(context.study / "s8_validation.toml"));
   fields.require();
   wind::TurbulenceSet turbulence =
