@@ -55,7 +55,7 @@ struct SystemSlope {
 
 /// First-order change of the spectra of few sensors with each of the slopes: dT = -O Z⁻¹ dZ Z⁻¹ R + O Z⁻¹ dR. The cost of all
 /// slopes together is that of a few spectra.
-/// @param options  with frozen_omega > 0, of which the air in `slopes` is
+/// @param options  frozen_omega > 0: the air in `slopes` belongs to that frequency
 /// @return [unit²/Hz] for each sensor (n_frequencies × n_slopes)
 [[nodiscard]] std::vector<Eigen::MatrixXd> response_spectra_slopes(
     const aero::AeroelasticSystem& system, double speed_m_s, const Eigen::Ref<const Eigen::MatrixXd>& load,

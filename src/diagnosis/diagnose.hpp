@@ -21,7 +21,7 @@ struct DiagnoseOptions {
   /// [nats] Prior odds against nothing of all causes together that act in all conditions alike: such a cause looks like an
   /// error of the model's form.
   double static_odds = -13.0;
-  int most_causes = 3;   ///< in a set; 0: what is found is told and not put into the model
+  int most_causes = 3;   ///< in a set; 0: the answer is told, and the model stays as it is
   int bootstrap = 2000;  ///< resamples of held-out blocks
 };
 
@@ -51,7 +51,7 @@ struct ScaleEstimate {
 /// A class of errors under the winning hypothesis.
 struct ErrorClass {
   std::string name;     ///< "frequencies", "shapes", "channels of shapes", "gains", "changes with state B"
-  std::string unit;     ///< of which the scale is relative: "of each mode's frequency"
+  std::string unit;     ///< what the scale is a part of: "of each mode's frequency"
   ScaleEstimate scale;  ///< relative
 };
 

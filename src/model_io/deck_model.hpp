@@ -42,7 +42,7 @@ struct DeckModel {
   std::set<long> made_nodes;                 ///< nodes that the deck does not have
   std::map<int, Expansion> expansion;        ///< of materials, by position
   long last_node = 0,
-       last_element = 0;  ///< what is made here is numbered above these and the deck's own
+       last_element = 0;  ///< new nodes and elements get numbers above these and the deck's own
 
   [[nodiscard]] const Eigen::Vector3d& place(int node) const { return model.nodes[fe::slot(node)].x_m; }
   /// Whether two nodes lie at one place, but for `tolerance` [-] of their distance from the origin.

@@ -51,7 +51,7 @@ std::vector<IdRange> ranges_of(const InpPlan& plan, const char* keyword) {
     if (reading.card->keyword != keyword) continue;
     IdRange& range = ranges[static_cast<std::size_t>(reading.scope)];
     for (const InpLine& line : reading.card->data) {
-      if (!is_whole_number(line.fields[0])) continue;  // what is wrong with it is said where it is read
+      if (!is_whole_number(line.fields[0])) continue;  // its reader tells what is wrong with it
       const long id = std::min(std::stol(line.fields[0]), largest_kept_apart);
       if (range.last < range.first) range = {id, id};
       range = {std::min(range.first, id), std::max(range.last, id)};
