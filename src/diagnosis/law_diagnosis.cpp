@@ -50,11 +50,10 @@ std::shared_ptr<const Precision> precision_at(const LawSystem& system, const Vec
   for (std::size_t c = 0; c < system.classes.size(); ++c)
     if (const double t = tau[static_cast<Index>(c)]; t > 0.0)
       sigma += t * t * linalg::product(system.classes[c], system.classes[c].transpose());
-  const MatrixXd lower = linalg::cholesky_factor(sigma);
+  const MatrixXd lower = linalg::cholesky_factor(std::move(sigma));
   TWINDECK_ASSERT(lower.size() > 0);
-  const MatrixXd inverse = linalg::lower_solve(lower, MatrixXd::Identity(sigma.rows(), sigma.rows()));
   auto out = std::make_shared<Precision>();
-  out->matrix = linalg::product(inverse, inverse, true);
+  out->matrix = linalg::inverse_of_factored(lower);
   out->log_determinant = 2.0 * lower.diagonal().array().log().sum();
   return out;
 }

@@ -105,7 +105,8 @@ bool acts_in_contrast(const LawSearch& search, const LawAccount& account, int co
   });
 }
 
-/// A set with its causes in the model, fitted from each start; the largest evidence counts.
+/// A set with its causes in the model, fitted from each start; of fits the one of the largest evidence counts, and it takes the
+/// place of what the screen found.
 void refine_by_law(const LawSetting& setting, const LawSearch& search, LawAccount& account,
                    const std::vector<VectorXd>& starts) {
   std::vector<Cause> start = search.base.causes;
@@ -145,8 +146,9 @@ void refine_by_law(const LawSetting& setting, const LawSearch& search, LawAccoun
         hypothesis.high[at] = with.causes[c].candidate->high[k] - with.causes[c].a[k];
       }
     const LawEvidence evidence = law.scored(hypothesis, tau);
-    if (!(evidence.log_evidence + account.log_prior > account.log_weight)) continue;
-    account.log_weight = evidence.log_evidence + account.log_prior;
+    const double weight = evidence.log_evidence + account.log_prior;
+    if (evidence.weight.size() == 0 || (account.refined() && !(weight > account.log_weight))) continue;
+    account.log_weight = weight;
     account.evidence = evidence;
     account.hypothesis = std::move(hypothesis);
     account.effect = effect;

@@ -7,6 +7,7 @@
 #include <string>
 
 #include "core/error.hpp"
+#include "diagnosis/reduction/composite_groups.hpp"
 #include "diagnosis/reduction/place_parts.hpp"
 #include "fe/assembly_elements.hpp"
 #include "fe/mixed_sides.hpp"
@@ -326,6 +327,15 @@ void ElementPlaces::add_groups(Places& places) const {
     int count = 0;
     std::vector<int> elements;
     std::vector<const fe::Spring*> springs;
+    void join(const Group& other) {
+      const auto append = [](auto& to, const auto& from) { to.insert(to.end(), from.begin(), from.end()); };
+      append(stiffness.entries, other.stiffness.entries);
+      append(mass.entries, other.mass.entries);
+      append(elements, other.elements);
+      append(springs, other.springs);
+      sum += other.sum;
+      count += other.count;
+    }
   };
   std::vector<std::string> order;
   std::map<std::string, Group> groups;
@@ -358,18 +368,27 @@ void ElementPlaces::add_groups(Places& places) const {
   }
   std::vector<Place>& set = places.sets["groups"];
   const std::vector<Place> of_parameters = set;
-  for (const std::string& name : order) {
-    const Group& group = groups.at(name);
-    Place place{"group:" + name, group.sum / group.count, free(group.stiffness), {}, {}, {}, group.elements};
+  const auto add = [&](const std::string& id, const Group& group) {
+    Place place{id, group.sum / group.count, free(group.stiffness), {}, {}, {}, group.elements};
     if (!group.mass.entries.empty()) place.mass = free(group.mass);
     const bool known = std::any_of(of_parameters.begin(), of_parameters.end(), [&](const Place& other) {
       return other.id == place.id ||
              (other.stiffness.nonZeros() > 0 && alike(other.stiffness.whole(), place.stiffness.whole()));
     });
-    if (known || place.stiffness.nonZeros() == 0) continue;
+    if (known || place.stiffness.nonZeros() == 0) return;
     place.stiffness_law = laws_.stiffness(group.elements, group.springs);
     place.mass_law = laws_.mass(group.elements);
     set.push_back(std::move(place));
+  };
+  for (const std::string& name : order) add("group:" + name, groups.at(name));
+  for (const std::vector<std::string>& names : composite_groups(order)) {
+    Group together{{expansion_.rows(), {}}, {expansion_.rows(), {}}, Eigen::Vector3d::Zero(), 0, {}, {}};
+    std::string id;
+    for (const std::string& name : names) {
+      together.join(groups.at(name));
+      id += (id.empty() ? "groups:" : ",") + name;
+    }
+    add(id, together);
   }
 }
 

@@ -24,7 +24,8 @@ class ElementPlaces {
   void add_stays(Places& places) const;     ///< set stays
   void add_dampers(Places& places) const;   ///< sets dampers, damper_types
   void add_supports(Places& places) const;  ///< sets supports, foundations
-  /// Set groups: every group of elements, and of springs between nodes, that no parameter's place is the same as.
+  /// Set groups: every group of elements, and of springs between nodes, that no parameter's place is the same as, and groups
+  /// that their names put together ("groups:a,b").
   void add_groups(Places& places) const;
   /// Set support_moves: where a support on a line of beams may stand instead.
   void add_support_moves(Places& places) const;
