@@ -25,7 +25,7 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-constexpr double kUnitOfClasses = 0.01, kUnitOfKinks = 0.0025;  // [-] of a scale of 1 (law_frame.hpp)
+constexpr double kUnitOfKinks = 0.0025;  // [-] of a scale of 1 (law_frame.hpp)
 constexpr double kFarOff = 0.08;                                // of frequencies: a person is told
 constexpr double kErrorOfSizes = 0.25;  // deviation of ln(size): a law of the rows does not know the units of a wrong model
 constexpr double kGuarded = 15.0;       // nats of the leader: accounts whose predictions are weighed
@@ -73,16 +73,46 @@ Explanation explanation_by_law(const LawSearch& search, const LawAccount& accoun
   return out;
 }
 
+/// The account of the model's errors that says more than no cause, null where there is none.
+const LawAccount* leading_model_error(const LawSearch& search) {
+  if (search.model_errors.empty() || search.model_errors.front().log_weight < search.none.log_evidence) return nullptr;
+  return &search.model_errors.front();
+}
+
 PredictiveGain gain_by_law(const LawSetting& setting, const LawSearch& search, int bootstrap, std::uint64_t seed) {
   LawAccount nothing;
   nothing.evidence = search.none;
   nothing.log_weight = search.none.log_evidence;
   nothing.hypothesis = {search.system.residual, VectorXd::Zero(1), MatrixXd(search.system.residual.size(), 0), {}, {}, {}};
+  if (const LawAccount* error = leading_model_error(search); error != nullptr && error->scored) nothing = *error;
   std::vector<Explanation> entries;
   for (const LawAccount& account : search.accounts)
     if (account.scored && account.log_weight > search.accounts.front().log_weight - kGuarded)
       entries.push_back(explanation_by_law(search, account));
   return gain_of_odds(mode_blocks(setting.plain, search.base), explanation_by_law(search, nothing), entries, bootstrap, seed);
+}
+
+/// Whether a set predicts modes that it was not fitted to better than the best of its causes do without one of them. What is
+/// wrong with channels shows in every mode alike, and a mode left out cannot tell.
+bool each_cause_predicts(const LawSetting& setting, const LawSearch& search, const LawAccount& set, int bootstrap,
+                         std::uint64_t seed) {
+  const auto is_member = [&](int m) { return std::find(set.members.begin(), set.members.end(), m) != set.members.end(); };
+  const LawAccount* fewer = nullptr;
+  for (const auto* accounts : {&search.accounts, &search.model_errors})
+    for (const LawAccount& account : *accounts)
+      if (account.scored && account.members.size() < set.members.size() &&
+          (fewer == nullptr || account.log_weight > fewer->log_weight) &&
+          std::all_of(account.members.begin(), account.members.end(), is_member))
+        fewer = &account;
+  if (!set.scored || fewer == nullptr) return true;
+  const bool of_channels = std::all_of(set.members.begin(), set.members.end(), [&](int m) {
+    return is_of_a_channel(*search.entries[static_cast<std::size_t>(m)].candidate) ||
+           std::find(fewer->members.begin(), fewer->members.end(), m) != fewer->members.end();
+  });
+  if (of_channels) return true;
+  const PredictiveGain gain = gain_of_odds(mode_blocks(setting.plain, search.base), explanation_by_law(search, *fewer),
+                                           {explanation_by_law(search, set)}, bootstrap, seed);
+  return gain.blocks.empty() || gain.low > 0.0;
 }
 
 /// Posterior of a scale: its mode in ln tau and two quantiles of Laplace's approximation.
@@ -126,6 +156,7 @@ class ByLaw {
                        "leave frequency_floor and shape_floor at their defaults (0.001 and 0.01)");
     std::erase_if(search_.accounts,
                   [&](const LawAccount& account) { return std::ssize(account.members) > std::max(options_.most_causes, 1); });
+    part_model_errors();
     for (const LawAccount& account : search_.accounts)
       if (account.members.size() == 1) out_.ranking.push_back(as_scored(search_, account, setting_.informed));
     leave_out_refused_sets();
@@ -142,6 +173,7 @@ class ByLaw {
       reason_ = "a cause stands out, and most_causes allows none";
     }
     if (out_.verdict == Verdict::named || out_.verdict == Verdict::ambiguous) accept();
+    tell_model_errors();
     out_.form->frequency = estimate_of(winner_, kFrequencies);
     out_.form->shape = estimate_of(winner_, kShapes);
     out_.form->classes = classes_in_words(winner_, setting_.contrasts);
@@ -166,15 +198,43 @@ class ByLaw {
   }
 
  private:
+  [[nodiscard]] bool is_model_error(int member) const {
+    return diagnosis::is_model_error(setting_, search_.entries[static_cast<std::size_t>(member)]);
+  }
+
+  /// What acts in all states alike is no change: it competes as an error of the model.
+  void part_model_errors() {
+    const auto first =
+        std::stable_partition(search_.accounts.begin(), search_.accounts.end(), [&](const LawAccount& account) {
+          return !std::all_of(account.members.begin(), account.members.end(), [&](int m) { return is_model_error(m); });
+        });
+    search_.model_errors.assign(std::make_move_iterator(first), std::make_move_iterator(search_.accounts.end()));
+    search_.accounts.erase(first, search_.accounts.end());
+  }
+
+  [[nodiscard]] double weight_of_nothing() const {
+    std::vector<double> terms = {search_.none.log_evidence};
+    for (const LawAccount& account : search_.model_errors) terms.push_back(account.log_weight);
+    return log_sum(terms);
+  }
+
+  /// Where no cause is left: whether the rows say that something changed at all.
+  [[nodiscard]] Verdict without_a_cause() const {
+    const double nothing = weight_of_nothing();
+    return std::any_of(search_.else_weight.begin(), search_.else_weight.end(), [&](double w) { return w > nothing; })
+               ? Verdict::unknown
+               : Verdict::none;
+  }
+
   void judge_accounts() {
     std::vector<PossibleAnswer> answers;
     for (const LawAccount& account : search_.accounts) answers.push_back({account.log_weight, false});
     for (const double w : search_.else_weight) answers.push_back({w, true});
-    judgement_ = judge(search_.none.log_evidence, answers);
+    judgement_ = judge(weight_of_nothing(), answers);
   }
 
-  /// A set of causes of which one has no size of its own is none: the next ones are judged without it. One cause alone that is
-  /// refused makes the verdict `unknown` (refuse_sizes).
+  /// A set of causes of which one has no size of its own, or predicts nothing that the others do not, is none: the next ones are
+  /// judged without it. One cause alone that is refused makes the verdict `unknown` (refuse_sizes).
   void leave_out_refused_sets() {
     judge_accounts();
     const auto refused = [&] {
@@ -184,7 +244,7 @@ class ByLaw {
       for (std::size_t c = 0; c < leader.with.causes.size(); ++c)
         if (!objection_to_size(leader.with.causes[c], effect_parameters(setting_.informed, leader.with, c)).empty())
           return true;
-      return false;
+      return !each_cause_predicts(setting_, search_, leader, options_.bootstrap, seed_);
     };
     while (refused()) {
       search_.accounts.erase(search_.accounts.begin());
@@ -197,7 +257,7 @@ class ByLaw {
     if (out_.verdict != Verdict::named && out_.verdict != Verdict::ambiguous) return;
     const double left = left_of_change(search_, search_.accounts.front());
     if (!(left > kMostLeft)) return;
-    out_.verdict = Verdict::unknown;
+    out_.verdict = without_a_cause();
     reason_ = fmt::format("the best cause leaves {:.0f} % of what changed", 100.0 * left);
   }
 
@@ -218,9 +278,7 @@ class ByLaw {
       return is_of_a_channel(*search_.entries[static_cast<std::size_t>(m)].candidate);
     });
     if (out_.form->gain.low > 0.0 || out_.form->gain.blocks.empty() || of_channels) return;  // no block: load tests alone
-    const bool in_all = std::all_of(members.begin(), members.end(),
-                                    [&](int m) { return search_.entries[static_cast<std::size_t>(m)].contrast < 0; });
-    out_.verdict = in_all ? Verdict::none : Verdict::unknown;
+    out_.verdict = without_a_cause();
     reason_ = "the best cause does not predict modes that it was not fitted to";
   }
 
@@ -244,7 +302,8 @@ class ByLaw {
     const LawAccount& leader = **std::min_element(set.begin(), set.end(), fewer);
     if (!put_into_model(leader)) return;
     std::vector<Slot> slots;
-    for (const int m : leader.members) slots.push_back({{m}, {0.0}});
+    for (const int m : leader.members)
+      if (!is_model_error(m)) slots.push_back({{m}, {0.0}});
     for (std::size_t k = 0; k < set.size(); ++k) place(*set[k], probability[k], slots);
     for (std::size_t c = 0; c < slots.size(); ++c) out_.effects.push_back(effect_of_slot(slots[c], c, set));
     if (judgement_.something_else_in_set)
@@ -257,10 +316,28 @@ class ByLaw {
       out_.verdict = Verdict::named;
   }
 
+  /// Errors of the model in all states, beside a change or without one.
+  void tell_model_errors() {
+    const LawAccount* account = out_.verdict == Verdict::none ? leading_model_error(search_)
+                                : out_.effects.empty()        ? nullptr
+                                                              : &search_.accounts.front();
+    if (account == nullptr || !account->refined()) return;
+    for (std::size_t c = 0; c < account->members.size(); ++c) {
+      if (!is_model_error(account->members[c])) continue;
+      Effect effect;
+      effect.cause = account->with.causes[c];
+      effect.parameters = effect_parameters(setting_.informed, account->with, c);
+      widen_sizes(effect.parameters, kErrorOfSizes);
+      out_.form->warnings.push_back("the model errs in all states alike: " + sentence_of(effect));
+    }
+  }
+
   [[nodiscard]] bool put_into_model(const LawAccount& leader) {
     const auto n = static_cast<Index>(setting_.plain.map().nuisances().size());
-    Fit with =
-        fit_near(setting_.informed, leader.causes, VectorXd((leader.refined() ? leader.with : search_.base).map.x.head(n)));
+    std::vector<Cause> changes;
+    for (std::size_t c = 0; c < leader.members.size(); ++c)
+      if (!is_model_error(leader.members[c])) changes.push_back(leader.causes[c]);
+    Fit with = fit_near(setting_.informed, changes, VectorXd((leader.refined() ? leader.with : search_.base).map.x.head(n)));
     if (!with.made()) {
       out_.verdict = Verdict::unknown;
       reason_ = "the best cause cannot be put into the model";
@@ -279,11 +356,11 @@ class ByLaw {
   };
 
   /// Counts a set for the slots of its members; a member without a slot goes to one that the set leaves open.
-  static void place(const LawAccount& account, double probability, std::vector<Slot>& slots) {
+  void place(const LawAccount& account, double probability, std::vector<Slot>& slots) const {
     std::vector<bool> taken(slots.size(), false);
     std::vector<int> strange;
     for (const int m : account.members) {
-      bool found = false;
+      bool found = is_model_error(m);
       for (std::size_t s = 0; s < slots.size() && !found; ++s) {
         const auto at = std::find(slots[s].members.begin(), slots[s].members.end(), m);
         if (at == slots[s].members.end() || taken[s]) continue;
@@ -410,9 +487,10 @@ Diagnosis diagnose(const Inference& whole, const DiagnoseOptions& options, std::
   out.message = "the model predicts none of these rows";
   if (!nominal.valid) return out;
   const Inference& plain = whole;
-  const FeatureMap informed_map = with_form_error(map, prior, nominal.g, level_of_fits(whole, prior, nominal.g));
+  const std::vector<Contrast> contrasts = contrasts_of(map.features());
+  const FeatureMap informed_map = with_form_error(map, prior, nominal.g, level_of_fits(whole, contrasts, prior, nominal.g));
   const Inference informed(informed_map, plain.candidates());
-  const LawSetting setting{plain, informed, contrasts_of(map.features()), options.static_odds};
+  const LawSetting setting{plain, informed, contrasts, options.static_odds};
   out.before = first_fit(informed);
   if (!out.before.made()) {
     out.message += ": " + out.before.map.status.message;

@@ -206,9 +206,8 @@ std::vector<LawAccount> sets_beside(const LawSetting& setting, const LawSearch& 
     const auto entry =
         std::find_if(search.entries.begin(), search.entries.end(), [&](const LawEntry& e) { return e.candidate == candidate; });
     const auto position = static_cast<int>(entry - search.entries.begin());
-    if (entry == search.entries.end() ||
-        std::find(leader.members.begin(), leader.members.end(), position) != leader.members.end())
-      continue;
+    const auto is_known = [&](int m) { return is_same_cause(search.entries[static_cast<std::size_t>(m)], *entry); };
+    if (entry == search.entries.end() || std::any_of(leader.members.begin(), leader.members.end(), is_known)) continue;
     LawAccount set;
     set.members = leader.members;
     set.members.push_back(position);
@@ -281,6 +280,14 @@ std::vector<LawAccount*> leading_accounts(LawSearch& search, const std::set<int>
 }
 
 }  // namespace
+
+bool is_same_cause(const LawEntry& a, const LawEntry& b) {
+  return a.candidate->hypothesis == b.candidate->hypothesis && a.candidate->location == b.candidate->location;
+}
+
+bool is_model_error(const LawSetting& setting, const LawEntry& entry) {
+  return entry.contrast < 0 && !is_of_a_channel(*entry.candidate) && states_of(setting.plain.map().features()).size() > 1;
+}
 
 double left_of_change(const LawSearch& search, const LawAccount& account) {
   double most = 0.0;
