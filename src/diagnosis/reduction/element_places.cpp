@@ -84,6 +84,17 @@ std::vector<int> ElementPlaces::measured_nodes() const {
   return measured;
 }
 
+int ElementPlaces::representative(const std::vector<int>& zone, int centre) const {
+  const auto group_of = [&](int e) -> const std::string& { return model_.elements[static_cast<std::size_t>(e)].group; };
+  const auto count = [&](int e) {
+    return std::count_if(zone.begin(), zone.end(), [&](int other) { return group_of(other) == group_of(e); });
+  };
+  int best = centre;
+  for (const int e : zone)
+    if (count(e) > count(best)) best = e;
+  return best;
+}
+
 void ElementPlaces::add_zones(const std::vector<int>& centres, Places& places, std::vector<Eigen::Vector3d> points) const {
   if (points.empty())
     for (const int c : centres) points.push_back(centroids_[static_cast<std::size_t>(c)]);
@@ -101,8 +112,8 @@ void ElementPlaces::add_zones(const std::vector<int>& centres, Places& places, s
     mass[zone].add(fe::element_mass(model_, element));
   }
   for (std::size_t z = 0; z < centres.size(); ++z) {
-    const fe::Element& centre = model_.elements[static_cast<std::size_t>(candidates_[static_cast<std::size_t>(centres[z])])];
-    places.sets["elements"].push_back({"element:" + std::to_string(centre.id),
+    const int centre = representative(members[z], candidates_[static_cast<std::size_t>(centres[z])]);
+    places.sets["elements"].push_back({"element:" + std::to_string(model_.elements[static_cast<std::size_t>(centre)].id),
                                        points[z],
                                        free(stiffness[z]),
                                        free(mass[z]),

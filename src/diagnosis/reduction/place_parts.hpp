@@ -42,6 +42,8 @@ class ElementPlaces {
 
  private:
   using Sum = ElementSum;
+  /// The element that a zone is named after: the centre, or one of the group that most of its elements are of.
+  [[nodiscard]] int representative(const std::vector<int>& zone, int centre) const;
   [[nodiscard]] Symmetric free(const Sum& sum) const { return sum.free(expansion_); }
   [[nodiscard]] fe::ElementMatrix stay_stiffness(std::size_t element, double pull) const;
   [[nodiscard]] double pull_of(std::size_t element) const;
