@@ -64,7 +64,8 @@ Fit fit_without(const Inference& informed, const std::vector<int>& rows) {
   return Inference(map, informed.candidates()).fit({}, {});
 }
 
-/// Form errors that the rows show at a fit, whatever else may have changed; the unit of their classes where that cannot be told.
+/// Form errors that the rows show at a fit, whatever else may have changed; the unit of their classes where that cannot be
+/// told.
 FormLevel level_at(const Inference& whole, const Fit& fit, const std::vector<Contrast>& contrasts) {
   FormLevel out{kUnitOfClasses, kUnitOfClasses};
   if (!fit.made()) return out;

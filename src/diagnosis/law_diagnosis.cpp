@@ -26,9 +26,9 @@ using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
 constexpr double kUnitOfKinks = 0.0025;  // [-] of a scale of 1 (law_frame.hpp)
-constexpr double kFarOff = 0.08;                                // of frequencies: a person is told
-constexpr double kErrorOfSizes = 0.25;  // deviation of ln(size): a law of the rows does not know the units of a wrong model
-constexpr double kGuarded = 15.0;       // nats of the leader: accounts whose predictions are weighed
+constexpr double kFarOff = 0.08;         // of frequencies: a person is told
+constexpr double kErrorOfSizes = 0.25;   // deviation of ln(size): a law of the rows does not know the units of a wrong model
+constexpr double kGuarded = 15.0;        // nats of the leader: accounts whose predictions are weighed
 
 Scored as_scored(const LawSearch& search, const LawAccount& account, const Inference& informed) {
   const LawEntry& entry = search.entries[static_cast<std::size_t>(account.members.front())];
@@ -204,10 +204,9 @@ class ByLaw {
 
   /// What acts in all states alike is no change: it competes as an error of the model.
   void part_model_errors() {
-    const auto first =
-        std::stable_partition(search_.accounts.begin(), search_.accounts.end(), [&](const LawAccount& account) {
-          return !std::all_of(account.members.begin(), account.members.end(), [&](int m) { return is_model_error(m); });
-        });
+    const auto first = std::stable_partition(search_.accounts.begin(), search_.accounts.end(), [&](const LawAccount& account) {
+      return !std::all_of(account.members.begin(), account.members.end(), [&](int m) { return is_model_error(m); });
+    });
     search_.model_errors.assign(std::make_move_iterator(first), std::make_move_iterator(search_.accounts.end()));
     search_.accounts.erase(first, search_.accounts.end());
   }
@@ -233,8 +232,8 @@ class ByLaw {
     judgement_ = judge(weight_of_nothing(), answers);
   }
 
-  /// A set of causes of which one has no size of its own, or predicts nothing that the others do not, is none: the next ones are
-  /// judged without it. One cause alone that is refused makes the verdict `unknown` (refuse_sizes).
+  /// A set of causes of which one has no size of its own, or predicts nothing that the others do not, is none: the next ones
+  /// are judged without it. One cause alone that is refused makes the verdict `unknown` (refuse_sizes).
   void leave_out_refused_sets() {
     judge_accounts();
     const auto refused = [&] {

@@ -115,8 +115,8 @@ LawSystem law_system(const Inference& plain, const Fit& fit, const std::vector<C
   }
   const MatrixXd shape = kUnitOfClasses * form.shape(rows, Eigen::all);
   out.classes = {kUnitOfClasses * form.frequency(rows, Eigen::all),
-                 shape.cols() > shape.rows() ? columns_of(covariance_of(shape)) : shape, kUnitOfClasses * form.kinks(rows, Eigen::all),
-                 std::move(gain)};
+                 shape.cols() > shape.rows() ? columns_of(covariance_of(shape)) : shape,
+                 kUnitOfClasses * form.kinks(rows, Eigen::all), std::move(gain)};
   const MatrixXd all = covariance_of(beside({out.classes[kFrequencies], shape, out.classes[kKinks]}, std::ssize(rows)));
   for (const Contrast& contrast : contrasts) {
     const MatrixXd share = along(contrast, map.features(), rows);

@@ -31,8 +31,8 @@ struct LawEntry {
   Eigen::Index first_signature = 0;     ///< column of the base's signatures that belongs to the first of them
 };
 
-/// Whether two entries are one cause in different states. What acts in several is an error of the model in all, or acts from one
-/// state on, and has entries of its own: never two changes.
+/// Whether two entries are one cause in different states. What acts in several is an error of the model in all, or acts from
+/// one state on, and has entries of its own: never two changes.
 [[nodiscard]] bool is_same_cause(const LawEntry& a, const LawEntry& b);
 
 /// A set of causes that act together, one or more.

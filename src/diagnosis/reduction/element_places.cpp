@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <map>
 #include <set>
 #include <string>
@@ -84,44 +85,29 @@ std::vector<int> ElementPlaces::measured_nodes() const {
   return measured;
 }
 
-int ElementPlaces::representative(const std::vector<int>& zone, int centre) const {
-  const auto group_of = [&](int e) -> const std::string& { return model_.elements[static_cast<std::size_t>(e)].group; };
-  const auto count = [&](int e) {
-    return std::count_if(zone.begin(), zone.end(), [&](int other) { return group_of(other) == group_of(e); });
-  };
-  int best = centre;
-  for (const int e : zone)
-    if (count(e) > count(best)) best = e;
-  return best;
-}
-
 void ElementPlaces::add_zones(const std::vector<int>& centres, Places& places, std::vector<Eigen::Vector3d> points) const {
   if (points.empty())
     for (const int c : centres) points.push_back(centroids_[static_cast<std::size_t>(c)]);
-  std::vector<Sum> stiffness(centres.size()), mass(centres.size());
-  std::vector<std::vector<int>> members(centres.size());
-  for (auto* sums : {&stiffness, &mass})
-    for (Sum& sum : *sums) sum.size = expansion_.rows();
+  std::map<std::pair<std::size_t, std::string>, std::vector<std::size_t>> zones;  // by centre and group: positions of elements
+  std::vector<double> least(points.size(), std::numeric_limits<double>::infinity());
+  const auto off = [&](std::size_t centre, std::size_t i) { return (centroids_[i] - points[centre]).squaredNorm(); };
   for (std::size_t i = 0; i < candidates_.size(); ++i) {
     // With a zone an element, an element is its own zone even where two have one middle.
-    const std::size_t zone =
+    const std::size_t centre =
         centres.size() == candidates_.size() ? i : static_cast<std::size_t>(nearest(points, centroids_[i]));
-    const fe::Element& element = model_.elements[static_cast<std::size_t>(candidates_[i])];
-    members[zone].push_back(candidates_[i]);
-    stiffness[zone].add(element_stiffness(model_, static_cast<std::size_t>(candidates_[i]), straight_sides_));
-    mass[zone].add(fe::element_mass(model_, element));
+    zones[{centre, model_.elements[static_cast<std::size_t>(candidates_[i])].group}].push_back(i);
+    least[centre] = std::min(least[centre], off(centre, i));
   }
-  for (std::size_t z = 0; z < centres.size(); ++z) {
-    const int centre = representative(members[z], candidates_[static_cast<std::size_t>(centres[z])]);
-    places.sets["elements"].push_back({"element:" + std::to_string(model_.elements[static_cast<std::size_t>(centre)].id),
-                                       points[z],
-                                       free(stiffness[z]),
-                                       free(mass[z]),
-                                       {},
-                                       {},
-                                       members[z],
-                                       laws_.stiffness(members[z]),
-                                       laws_.mass(members[z])});
+  for (const auto& [key, members] : zones) {
+    const std::size_t centre = key.first;
+    const std::size_t middle = *std::min_element(members.begin(), members.end(),
+                                                 [&](std::size_t i, std::size_t j) { return off(centre, i) < off(centre, j); });
+    std::vector<int> elements;
+    for (const std::size_t i : members) elements.push_back(candidates_[i]);
+    Place zone = part(elements);
+    if (off(centre, middle) <= least[centre]) zone.x_m = points[centre];
+    zone.id = "element:" + std::to_string(model_.elements[static_cast<std::size_t>(candidates_[middle])].id);
+    places.sets["elements"].push_back(std::move(zone));
   }
 }
 

@@ -19,7 +19,8 @@ class ElementPlaces {
   [[nodiscard]] std::vector<Eigen::Vector3d> node_positions() const;  ///< of nodes that an element reaches and that can move
   [[nodiscard]] std::vector<int> measured_nodes() const;              ///< positions in `node_positions`
 
-  /// Set elements. @param points  what elements are near to; the middles of `centres` where empty
+  /// Set elements: those of one group that are nearest to one centre are a place, named after the one in their middle.
+  /// @param points  what elements are near to; the middles of `centres` where empty
   void add_zones(const std::vector<int>& centres, Places& places, std::vector<Eigen::Vector3d> points = {}) const;
   void add_stays(Places& places) const;     ///< set stays
   void add_dampers(Places& places) const;   ///< sets dampers, damper_types
@@ -42,8 +43,6 @@ class ElementPlaces {
 
  private:
   using Sum = ElementSum;
-  /// The element that a zone is named after: the centre, or one of the group that most of its elements are of.
-  [[nodiscard]] int representative(const std::vector<int>& zone, int centre) const;
   [[nodiscard]] Symmetric free(const Sum& sum) const { return sum.free(expansion_); }
   [[nodiscard]] fe::ElementMatrix stay_stiffness(std::size_t element, double pull) const;
   [[nodiscard]] double pull_of(std::size_t element) const;
