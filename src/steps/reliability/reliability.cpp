@@ -334,6 +334,20 @@ void find_years(const ReliabilityInputs& read, const fe::Model& start, const Str
   }
 }
 
+/// What two measurements of the frequencies would see of each wall's loss.
+void find_visible(const ReliabilityInputs& read, const fe::Model& start, const Structure& s, runner::StepContext& context) {
+  const aero::WindModel& model = s.bridge.model;
+  std::vector<MonitoredName> known;
+  std::vector<reliability::MonitoredMode> modes;
+  for (const MonitoredName& monitored : read.monitored) {
+    if (monitored.mode.mode >= model.modes.frequency_Hz.size()) continue;
+    known.push_back(monitored);
+    modes.push_back(monitored.mode);
+  }
+  write_visible(reliability::visible_losses(start, model.modes.shapes, model.modes.frequency_Hz, read.walls, modes), read.walls,
+                known, context.out);
+}
+
 /// Figures of a year under the user's wind law. Above the last speed that was computed, or where the bridge is unstable, a
 /// limit counts as exceeded.
 std::vector<AnnualRow> annual_rows(const reliability::WindLaw& law, const Found& found) {
@@ -401,6 +415,7 @@ Status run_reliability(const ReliabilityConfig& config, const ReliabilityInputs&
       find_critical(config, read, structure, found);
       find_responses(config, read, structure, context, found);
       if (!of.dampers) find_years(read, start, structure, found);
+      if (!of.dampers && years == 0.0 && !read.monitored.empty()) find_visible(read, start, structure, context);
       context.progress("years and cases", ++done, static_cast<double>(cases.size() * config.years.size()));
     }
   }
