@@ -102,10 +102,7 @@ std::vector<SectionAero> sections_of(const WindSettings& config, const std::vect
     const Polar polar = set == "standin" ? data[i].polar : data[i].polar.with_lift_slope_factor(level);
     DerivativesPtr derivatives;
     if (set == "standin") {
-      if (!data[i].flutter)
-        throw InputError(
-            {"", 0, "deck " + deck.name}, "has no file of flutter derivatives, which the set standin is made of",
-            "give its flutter, or write sets = [\"quasi_steady\"] for step 7 and set = \"quasi_steady\" for step 8");
+      TWINDECK_ASSERT(data[i].flutter != nullptr);
       derivatives = std::make_shared<DerivativeTable>(data[i].flutter->scaled(level));
     } else {
       derivatives = std::make_shared<QuasiSteady>(polar, QuasiSteady::Arms{deck.arm_drag, deck.arm_lift, deck.arm_moment});

@@ -120,7 +120,11 @@ MatrixXd response_spectra(const aero::AeroelasticSystem& system, double speed_m_
         impedance(system, is_frozen ? frozen : system.self_excited(speed_m_s, std::max(omega, options.lowest_omega)), omega)
             .transpose();
     const MatrixXcd left = z.partialPivLu().solve(sensors.transpose().cast<std::complex<double>>());
-    const MatrixXcd transfer = std::pow(omega, options.derivative) * (left.transpose() * load);
+    const double power = std::pow(omega, options.derivative);
+    const MatrixXd real = power * left.real().transpose() * load, imaginary = power * left.imag().transpose() * load;
+    MatrixXcd transfer(real.rows(), real.cols());
+    transfer.real() = real;
+    transfer.imag() = imaginary;
     const double chi = options.admittance ? options.admittance(f_Hz[k]) : 1.0;
     for (const auto& [field, first] : {std::pair{&along, Index{0}}, std::pair{&vertical, strips}}) {
       const MatrixXd split = split_transfer(transfer.middleCols(first, strips), turbulence_at_points(*field, f_Hz[k]));

@@ -208,8 +208,11 @@ UncertainMoments uncertain_moments(
   const double turn = 2.0 * std::numbers::pi, frozen = response.bridge.frozen_omega;
   UncertainMoments out;
   const aero::DerivativeFrequencies frequencies{frozen, {turn * kLowestDerivatives_Hz, turn * response.settings.cutoff_Hz}};
-  out.stable = !aero::find_growth(system, speed_m_s, frequencies);
-  if (!out.stable) return out;
+  if (const std::optional<aero::Growth> growth = aero::find_growth(system, speed_m_s, frequencies)) {
+    out.stable = false;
+    out.growth = growth->in_words();
+    return out;
+  }
 
   const aero::Equations equations = response.settings.equation_choice();
   const MatrixXd load = buffeting::load_matrix(system, speed_m_s, equations);

@@ -8,7 +8,7 @@
 #include <numbers>
 
 #include "core/distributions.hpp"
-#include "core/error.hpp"
+#include "core/parallel.hpp"
 
 namespace twindeck::reliability {
 
@@ -74,15 +74,16 @@ double apart(const VectorXd& direction, const std::vector<VectorXd>& others) {
 std::vector<VisibleLoss> visible_losses(const fe::Model& model, const MatrixXd& modes, const VectorXd& frequency_Hz,
                                         const std::vector<Wall>& walls, const std::vector<MonitoredMode>& monitored) {
   const double seen = 2.0 * normal_quantile(kSureness);
-  std::vector<VisibleLoss> out;
-  std::vector<VectorXd> directions;
-  for (const Wall& wall : walls) {
-    VisibleLoss found;
+  std::vector<VisibleLoss> out(walls.size());
+  std::vector<VectorXd> directions(walls.size());
+  parallel_for(std::ssize(walls), [&](Index at) {
+    const Wall& wall = walls[static_cast<std::size_t>(at)];
+    VisibleLoss& found = out[static_cast<std::size_t>(at)];
     found.wall_m = wall_of(model, wall);
     const double most = kLargestLoss * found.wall_m;
     double loss = kFirstShare * found.wall_m;
     VectorXd change = weighed_change(model, modes, frequency_Hz, wall, loss, monitored);
-    directions.push_back(change);
+    directions[static_cast<std::size_t>(at)] = change;
     for (int step = 0; step < kMostSteps && std::abs(change.norm() / seen - 1.0) > kWidth; ++step) {
       const double next = std::min(most, change.norm() > 0.0 ? loss * seen / change.norm() : most);
       if (next == loss) break;
@@ -91,11 +92,10 @@ std::vector<VisibleLoss> visible_losses(const fe::Model& model, const MatrixXd& 
     }
     found.distance = change.norm();
     if (std::abs(found.distance / seen - 1.0) <= kWidth) found.loss_m = loss;
-    found.change = change;
     for (Index i = 0; i < change.size(); ++i)
-      found.change[i] *= std::numbers::sqrt2 * monitored[static_cast<std::size_t>(i)].deviation;
-    out.push_back(found);
-  }
+      change[i] *= std::numbers::sqrt2 * monitored[static_cast<std::size_t>(i)].deviation;
+    found.change = change;
+  });
   for (std::size_t i = 0; i < out.size(); ++i) {
     if (!out[i].loss_m) continue;
     std::vector<VectorXd> others = directions;

@@ -64,6 +64,10 @@ std::vector<aero::DeckAerodynamics> read_deck_aerodynamics(const aero::WindSetti
   std::vector<aero::DeckAerodynamics> data;
   for (const aero::DeckWind& deck : config.decks) {
     data.push_back({aero_io::read_polar(context.input(deck.polar)), nullptr});
+    const bool asked = std::find(config.sets.begin(), config.sets.end(), "standin") != config.sets.end();
+    if (deck.flutter.empty() && asked)
+      throw InputError({"", 0, "deck " + deck.name}, "has no file of flutter derivatives, which the set standin is made of",
+                       "give its flutter, or write sets = [\"quasi_steady\"] in step 7 and set = \"quasi_steady\" in step 8");
     if (!deck.flutter.empty())
       data.back().flutter = std::make_shared<aero::DerivativeTable>(aero_io::read_flutter_derivatives(
           context.input(deck.flutter), choice(config.below_range), choice(config.above_range)));
