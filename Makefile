@@ -219,8 +219,8 @@ compare: ## make compare A=results/x B=results/y: two runs beside each other: op
 why: ## make why s6: why that step would run again
 	@$(PRODUCT)workflows/why.sh "$(STEP)" $(STUDY) $(PRODUCT)Makefile
 
-new: ## make new STUDY=my_bridge: a study of your own, that runs as it stands; FROM="logger.csv sensors.csv bridge.inp": out of your own files
-	@TWINDECK_BIN="$(BIN)" $(PRODUCT)workflows/new.sh $(if $(filter STUDY,$(GIVEN)),$(STUDY)) $(if $(FROM),--from $(FROM))
+new: ## make new STUDY=my_bridge: a study of your own, that runs as it stands; TEMPLATE=girder: a footbridge in wind; FROM="logger.csv sensors.csv bridge.inp": out of your own files
+	@TWINDECK_BIN="$(BIN)" $(PRODUCT)workflows/new.sh $(if $(filter STUDY,$(GIVEN)),$(STUDY)) $(if $(TEMPLATE),--$(TEMPLATE)) $(if $(FROM),--from $(FROM))
 
 reference: build ## every configuration key and every column of a file, as docs/reference.md
 	@$(PRODUCT)workflows/python.sh -m twindeck_reference --bin $(BIN) --out docs/reference.md
