@@ -18,7 +18,7 @@ STIFFNESS_RANGE, DENSITY_RANGE = 0.2, 0.1  # [-] either way: what a modulus of e
 class Model:
     source: Path
     is_folder: bool
-    parameters: str  # text of the file beside a deck; empty where the model has its own
+    parameters: str  # text of model.toml, or of the file beside a deck
     missing: list  # lines of what the engineer has to state
 
 
@@ -30,21 +30,21 @@ def read_model(bin_folder: Path, source: Path, title: str) -> Model:
     """@throws InputError  with step 1's own line where it cannot read the model"""
     with tempfile.TemporaryDirectory() as folder:
         out = Path(folder) / "s1_model"
-        run = subprocess.run([str(bin_folder / "s1_model"), "--model", str(source), "--out", str(out), "--quiet"], capture_output=True, text=True, check=False)
+        run = subprocess.run([str(bin_folder / "s1_model"), "--model", str(source), "--out", str(out), "--set", "n_modes=1", "--quiet"], capture_output=True, text=True, check=False)
         if run.returncode not in (0, 1):
             raise InputError((run.stderr.strip().splitlines() or [f"{source}: step 1 cannot read it"])[-1])
-        has_own = source.is_dir() and (source / "model.toml").is_file() or source.with_suffix(".toml").is_file()
-        if has_own:
-            toml = source / "model.toml" if source.is_dir() else source.with_suffix(".toml")
-            named = tomllib.loads(toml.read_text(encoding="utf-8")).get("parameter", [])
-            return Model(source, source.is_dir(), "", [] if named else [f"parameters with bounds in {toml.name}: without them steps 5 and 6 have nothing to update"])
+        beside = source / "model.toml" if source.is_dir() else source.with_suffix(".toml")
+        own = beside.read_text(encoding="utf-8") if beside.is_file() else ""
+        has = tomllib.loads(own)
         materials = out / "model/materials.csv"
-        names = pd.read_csv(materials) if materials.is_file() else pd.DataFrame()
-    return Model(source, source.is_dir(), *_parameters(names, title))
+        if has.get("parameter") or has.get("matrices") or not materials.is_file():
+            return Model(source, source.is_dir(), own, [] if "parameter" in has else [f"parameters with bounds in {beside.name}: without them steps 5 and 6 have nothing to update"])
+        text = ("" if "title" in has else f'title = "{title}"\n') + own
+        return Model(source, source.is_dir(), *_parameters(pd.read_csv(materials), text))
 
 
-def _parameters(materials, title: str) -> tuple:
-    text = f'title = "{title}"\n'
+def _parameters(materials, text: str) -> tuple:
+    """`text` of the model's own file with a start of parameters, one a modulus and a density."""
     column = next((c for c in materials.columns if c.startswith("youngs_modulus") or c.startswith("E_")), None)
     density = next((c for c in materials.columns if c.startswith("density")), None)
     missing = []
@@ -62,13 +62,10 @@ def copy_model(model: Model, target: Path) -> str:
     """Copies the model below `target` (data/NAME). @return the line of study.toml's [model] table, with {data} for that folder"""
     if model.is_folder:
         shutil.copytree(model.source, target / "model")
-        if model.parameters:
-            (target / "model/model.toml").write_text(model.parameters, encoding="utf-8")
-        return 'folder = "{data}/model"'
-    shutil.copy2(model.source, target / model.source.name)
-    beside = model.source.with_suffix(".toml")
-    if beside.is_file():
-        shutil.copy2(beside, target / beside.name)
+        beside = target / "model/model.toml"
     else:
-        (target / beside.name).write_text(model.parameters, encoding="utf-8")
-    return f'inp = "{{data}}/{model.source.name}"'
+        shutil.copy2(model.source, target / model.source.name)
+        beside = target / model.source.with_suffix(".toml").name
+    if model.parameters:
+        beside.write_text(model.parameters, encoding="utf-8")
+    return 'folder = "{data}/model"' if model.is_folder else f'inp = "{{data}}/{model.source.name}"'

@@ -11,6 +11,7 @@
 #include "identification/doubts.hpp"
 #include "identification/limits.hpp"
 #include "identification/mode_choices.hpp"
+#include "identification/one_mode.hpp"
 #include "sysid/common_motion.hpp"
 #include "sysid/merge_preger.hpp"
 
@@ -265,6 +266,10 @@ void identify_condition(ConditionResult& result, const IdentificationSettings& c
         std::min_element(result.setups.begin(), result.setups.end(),
                          [](const SetupResult& a, const SetupResult& b) { return a.limits.block_rows < b.limits.block_rows; });
     check_merging(result, common_references(result), fewest->limits);
+  }
+  // Modes that a person picked stay as they are.
+  if (config.choices.empty()) {
+    for (const std::string& line : merge_modes_that_are_one(result)) reporter.warn(line);
   }
   for (const std::string& doubt : doubts_of(result)) reporter.warn(doubt);
 }

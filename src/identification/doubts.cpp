@@ -22,7 +22,6 @@ constexpr std::size_t kFewestModes = 4;  ///< [-] fewer have no usual damping
 constexpr double kPeak = 10.0;
 constexpr double kNearPeak = 0.03;     ///< [-] of the frequency
 constexpr std::size_t kMostPeaks = 3;  ///< named
-constexpr double kOneShape = 0.9;      ///< [-] MAC of shapes that are alike
 
 void short_blocks(const ConditionResult& result, std::vector<std::string>& doubts) {
   for (const SetupResult& setup : result.setups) {
@@ -82,19 +81,6 @@ void peaks_without_mode(const ConditionResult& result, std::vector<std::string>&
   }
 }
 
-void modes_that_are_one(const ConditionResult& result, std::vector<std::string>& doubts) {
-  if (result.channels.size() < 2) return;  // one channel has no shape
-  for (std::size_t m = 0; m + 1 < result.modes.size(); ++m) {
-    const sysid::MergedMode &low = result.modes[m], &high = result.modes[m + 1];
-    const double sigma = std::hypot(low.deviation.frequency_Hz, high.deviation.frequency_Hz);
-    if (high.frequency_Hz - low.frequency_Hz > kSure * sigma || known_mac(low.shape, high.shape) < kOneShape) continue;
-    doubts.push_back(fmt::format(
-        "modes {} and {} ({:.4g} and {:.4g} Hz) may be one: their shapes are alike and their frequencies lie within "
-        "their standard deviations; keep one of them (key keep)",
-        m + 1, m + 2, low.frequency_Hz, high.frequency_Hz));
-  }
-}
-
 }  // namespace
 
 std::vector<std::string> doubts_of(const ConditionResult& result) {
@@ -102,7 +88,6 @@ std::vector<std::string> doubts_of(const ConditionResult& result) {
   short_blocks(result, doubts);
   far_dampings(result, doubts);
   peaks_without_mode(result, doubts);
-  modes_that_are_one(result, doubts);
   return doubts;
 }
 

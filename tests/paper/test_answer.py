@@ -50,7 +50,7 @@ class FirstScreen(unittest.TestCase):
         self.assertIn("The model misses 8 measured frequencies by 4 % in the mean", first)
         virtual = words_of(page[page.index('id="virtual"'):page.index('id="account"')])
         order = [virtual.index(part) for part in (
-            "Made-up bridge, virtual campaign its truth is known", "The dampers C1 and C2 do not move below 434 N each; likely, 6.7 to 1; error on unfitted data 25 % smaller.",
+            "Made-up bridge, virtual campaign its truth is known", "The dampers C1 and C2 do not move below 434 N each; likely, 6.7 to 1; error 25 % smaller on unfitted data.",
             "mode 1 windy 0.7480 Hz 0.6900 Hz 0.7400 Hz", "What is wrong", made_up_answer.SENTENCES["what"], "How sure", made_up_answer.SENTENCES["how_sure"],
             "How much better", made_up_answer.SENTENCES["how_much_better"], "What next", made_up_answer.SENTENCES["next"], "What was hidden",
             "In the set. Friction: the dampers C1 and C2 stand still below 500 N each.", "hidden 500 N, found 434 N (181 N to 608 N, 90 %); the interval holds it",

@@ -138,6 +138,20 @@ class Study(unittest.TestCase):
         self.assertEqual(again.returncode, 2)
         self.assertIn("workflows/mill_bridge is there already", again.stderr)
 
+    def test_a_deck_whose_units_stand_beside_it_gets_parameters_too(self):
+        """A bar of steel in Nastran's form does not say its units; three lines beside it do. They are kept, modulus and density follow as a start."""
+        (self.folder / "bar.bdf").write_text("SOL 103\nCEND\nSPC = 1\nBEGIN BULK\nGRID,1,,0.,0.,0.\nGRID,2,,1.,0.,0.\nGRID,3,,2.,0.,0.\nCBAR,1,1,1,2,0.,0.,1.\nCBAR,2,1,2,3,0.,0.,1.\n"
+                                             "PBAR,1,7,0.01,1.-5,1.-5,2.-5\nMAT1,7,210.E9,,0.3,7850.\nSPC1,1,123456,1\nENDDATA\n", encoding="utf-8")
+        without = self.new("bar", "--from", "logger.csv", "sensors.csv", "bar.bdf")
+        self.assertEqual(without.returncode, 2)
+        self.assertIn("write [units]", without.stderr)
+        (self.folder / "bar.toml").write_text('[units]\nlength = "m"\nforce = "N"\n', encoding="utf-8")
+        run = self.new("bar", "--from", "logger.csv", "sensors.csv", "bar.bdf")
+        self.assertEqual(run.returncode, 0, run.stderr)
+        told = tomllib.loads((self.folder / "data/bar/bar.toml").read_text(encoding="utf-8"))
+        self.assertEqual((told["title"], told["units"]), ("Bar", {"length": "m", "force": "N"}))
+        self.assertEqual([(p["target"], p["initial"]) for p in told["parameter"]], [("youngs_modulus", 210e9), ("density", 7850.0)])
+
     def test_what_cannot_be_read_writes_nothing(self):
         (self.folder / "prose.csv").write_text("Dear all,\nnothing here is a number.\n", encoding="utf-8")
         for arguments in (("--from", "prose.csv"), ("--from", "gone.csv"), ("--from",), ("logger.csv",), ("--from", "logger.csv", "logger.csv")):

@@ -68,6 +68,7 @@ class Page(unittest.TestCase):
             b.wait("window.twindeck && twindeck.modes && twindeck.modes.viewer.frames > 1")
             renderer = b.run("document.getElementById('mode-shapes').dataset.renderer")
             self.drawn_and_moving(b)
+            self.colours_what_updating_changed(b)
             self.stands_still_for_print(b)
             self.poles_tell_their_numbers(b)
             self.modes_are_chosen_by_hand(b)
@@ -102,6 +103,26 @@ class Page(unittest.TestCase):
         self.assertAlmostEqual(rise[0], 0.0, places=5)
         self.assertAlmostEqual(rise[2 * 5], max(rise), places=4)
         self.assertAlmostEqual(rise[2 * 15], -max(rise), places=4)
+
+    def colours_what_updating_changed(self, b):
+        """Alike shapes have no difference; a node of the model as designed that is moved by a tenth of the largest displacement is where the models differ."""
+        told = b.run("""(() => { const m = twindeck.modes, last = m.data.sets[m.data.sets.length - 1];
+          m.sets.value = m.data.sets.findIndex(s => s.kind === 'model'); m.choose(0);
+          if (!m.earlier()) return null;
+          const its = m.shape(last.modes[0], 'shape', Int16Array), own = m.shape(m.mode, 'shape', Int16Array);
+          its.set(own);
+          const alike = Math.max(...m.difference().length);
+          its[3 * 7 + 1] += 3277;
+          const found = m.difference(), at = found.length.indexOf(Math.max(...found.length));
+          m.change.click();
+          const words = m.text.textContent;
+          m.change.click();
+          return [alike, at, found.most, words]; })()""")
+        self.assertIsNotNone(told, "the updated model and the one as designed have the same nodes")
+        self.assertLess(told[0], 1e-6)
+        self.assertEqual(told[1], 7)
+        self.assertAlmostEqual(told[2], 0.1, delta=0.01)
+        self.assertIn("Colour: difference to mode", told[3])
 
     def stands_still_for_print(self, b):
         b.run("window.dispatchEvent(new Event('beforeprint'))")

@@ -12,11 +12,13 @@ import shutil
 import subprocess
 import sys
 import tempfile
+import time
 import unittest
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 BIN = pathlib.Path(os.environ["TWINDECK_BIN"]).resolve()
-sys.path.insert(0, str(ROOT / "paper"))
+sys.path[:0] = [str(ROOT / "paper"), str(ROOT / "tests/paper")]
+import browser  # noqa: E402
 import twindeck_reference.__main__ as reference  # noqa: E402
 
 
@@ -33,10 +35,51 @@ class OwnStudy(unittest.TestCase):
         cls.all = cls.make("all", "STUDY=mine")
 
     @classmethod
-    def make(cls, *arguments):
+    def make(cls, *arguments, root=None):
         environment = {k: v for k, v in os.environ.items() if k not in ("MAKEFLAGS", "MFLAGS", "MAKELEVEL")}
-        return subprocess.run(["make", "NO_BUILD=1", f"BIN={BIN}", *arguments], cwd=cls.root, env=environment, capture_output=True, text=True,
+        return subprocess.run(["make", "NO_BUILD=1", f"BIN={BIN}", *arguments], cwd=root or cls.root, env=environment, capture_output=True, text=True,
                               timeout=600)
+
+    @unittest.skipUnless(browser.program(), "no Chromium here (Debian: apt-get install chromium): no mode is deleted by a click")
+    def test_a_mode_deleted_by_a_click_is_gone_from_every_later_step(self):
+        """The file that the page's picker downloads goes back by `keep`. The other modes stay as they were, and steps 3 to 9 run again."""
+        root = pathlib.Path(self.enterContext(tempfile.TemporaryDirectory())).resolve()
+        for part in ("workflows", "paper", "data", "results", "Makefile"):
+            (shutil.copytree if (self.root / part).is_dir() else shutil.copy2)(self.root / part, root / part)
+        results = root / "results/mine"
+
+        def rows(name):
+            with open(results / name, newline="") as stream:
+                return list(csv.DictReader(stream))
+
+        before = rows("s3_identification/modes.csv")
+        click = """(() => { const p = twindeck.poles, s = p.seen.find(s => s.p[4] === 3), at = new DOMPoint(s.x, s.y).matrixTransform(p.picture.getScreenCTM());
+          for (const kind of ['pointerdown', 'pointerup']) p.picture.dispatchEvent(new PointerEvent(kind, { clientX: at.x, clientY: at.y })); })()"""
+        with browser.Browser(webgl=False) as b:
+            b.open(results / "report/report.html")
+            b.run("location.hash = '#identification'")
+            b.wait("twindeck.poles.drawn > 0")
+            b.run(click)
+            b.call("Browser.setDownloadBehavior", behavior="allow", downloadPath=str(root / "data/mine"))
+            b.run("document.querySelector('#poles [name=download]').click()")
+            deadline = time.monotonic() + 60
+            while not (root / "data/mine/modes_kept.csv").is_file() and time.monotonic() < deadline:
+                time.sleep(0.1)
+            self.assertEqual(b.errors, [])
+        settings = root / "workflows/mine/s3_identification.toml"
+        settings.write_text('keep = "data/mine/modes_kept.csv"\n' + settings.read_text(encoding="utf-8"), encoding="utf-8")
+        done = self.make("report", "STUDY=mine", root=root)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        for step in ("s3_identification", "s4_refinement", "s5_sensitivity", "s6_updating", "s9_diagnosis"):
+            self.assertIn(f"{step}: done", done.stdout + done.stderr)
+        after = rows("s3_identification/modes.csv")
+        self.assertEqual([m["frequency_Hz"] for m in after], [m["frequency_Hz"] for m in before if m["mode"] != "3"])
+        gone = float(before[2]["frequency_Hz"])
+        for step in ("s4_refinement", "s6_updating"):
+            told = {float(row["measured_Hz"]) for row in rows(f"{step}/comparison.csv") if row["measured_Hz"]}
+            self.assertEqual(len(told), len(after))
+            self.assertGreater(min(abs(f - gone) for f in told), 0.01 * gone)
+        self.assertEqual({row["mode"] for row in rows("s9_diagnosis/residuals.csv") if row["type"] == "frequency_Hz"}, {m["mode"] for m in after})
 
     def test_template_runs_untouched_to_a_report(self):
         self.assertEqual(self.new.returncode, 0, self.new.stderr)

@@ -6,7 +6,7 @@ import tomllib
 from pathlib import Path
 
 MOST_WORDS = 25  # of the first sentence: what a reader takes in at a glance
-MOST_OF_THE_CAUSE = 13  # words, so that odds and gain still fit behind them
+MOST_OF_THE_CAUSE = 16  # words, so that odds and gain still fit behind them
 ALIKE = 3.0  # ratio of probabilities up to which two causes explain the data equally well: by less no one would bet on either
 LARGEST_ODDS = 1e6  # beyond it odds are told as "over a million to 1": the catalogue is not that complete
 CATALOGUE = Path(__file__).resolve().parents[3] / "workflows/common/hypotheses"
@@ -55,8 +55,10 @@ def cause_in_words(effect: dict) -> str:
         return told
     place = re.sub(r"\s*\([^()]*\)", "", (effect.get("place") or {}).get("words") or "")
     title = _title(effect["cause"])
-    whole = f"{title}: {place}" if place else title
-    return whole if words(whole) <= MOST_OF_THE_CAUSE else title
+    for where in (place, re.split(" at | round |,", place)[0]):  # the name of a place says more than its coordinates
+        if where and words(f"{title}: {where}") <= MOST_OF_THE_CAUSE:
+            return f"{title}: {where}"
+    return title
 
 
 def _title(cause: str) -> str:
@@ -83,17 +85,20 @@ def of_diagnosis(told: dict, rows: int, beyond: int, updating: tuple | None) -> 
     first = cause_in_words(leader)
     if len(effects) > 1:
         first += f" and {len(effects) - 1} more cause{'s' if len(effects) > 2 else ''}"
-    certain = (f"not told apart from {len(alike)} other{'s' if len(alike) > 1 else ''}" if alike else
-               f"{sure(leader['probability'])}, {odds_of(leader['probability'])}")
-    return _joined(first, [certain, _gained(told.get("gain") or {})])
+    certain = f"not told apart from {len(alike)} other{'s' if len(alike) > 1 else ''}" if alike else sure(leader["probability"])
+    odds_too = certain if alike else f"{certain}, {odds_of(leader['probability'])}"
+    gain, on_what = _gained(told.get("gain") or {})
+    whole = [_joined(first, parts) for parts in ([odds_too, gain + on_what], [odds_too, gain], [certain, gain])]
+    return max(whole, key=lambda text: text.count(";"))  # of those that say most the first
 
 
-def _gained(gain: dict) -> str:
+def _gained(gain: dict) -> tuple:
+    """What the cause gains, and on which data."""
     if not gain.get("rows"):
-        return "gain not measured"
+        return "gain not measured", ""
     if gain["interval_pct"][0] <= 0:
-        return "no gain shown on unfitted data"
-    return f"error on unfitted data {gain['reduction_pct']:.0f} % smaller"
+        return "no gain shown", " on unfitted data"
+    return f"error {gain['reduction_pct']:.0f} % smaller", " on unfitted data"
 
 
 def _updated(updating: tuple | None) -> str:

@@ -62,16 +62,5 @@ TEST(DoubtsOf, APeakHasNoMode) {
   EXPECT_TRUE(doubts_of(result).empty());
 }
 
-TEST(DoubtsOf, TwoModesMayBeOne) {
-  ConditionResult result = with_modes({0.8, 1.2, 1.204});
-  result.modes[1].shape = result.modes[2].shape;
-  const auto doubts = doubts_of(result);
-  ASSERT_EQ(doubts.size(), 1U);
-  EXPECT_NE(doubts[0].find("modes 2 and 3"), std::string::npos) << doubts[0];
-  result.modes[2].shape = Eigen::Vector2cd(1.0, -1.0);  // MAC with (1, 0.5): 0.1
-  result.modes[1].shape = Eigen::Vector2cd(1.0, 0.5);
-  EXPECT_TRUE(doubts_of(result).empty());
-}
-
 }  // namespace
 }  // namespace twindeck::identification

@@ -1,5 +1,6 @@
 // Mode shapes of the models and of the measurement, moving.
 const SWAY = 0.07;  // largest displacement as a share of the structure's size, at the middle of the slider
+const LEAST_CHANGE = 0.01;  // of the largest displacement: what the reddest colour stands for at least, so that rounding is not coloured
 
 const MARKS = { support: [GREEN, GREEN], cause: [RED, RED] };
 
@@ -17,14 +18,14 @@ class ModeShapes {
     this.playing = !window.matchMedia('(prefers-reduced-motion: reduce)').matches;
     const find = name => root.querySelector(`[name=${name}]`);
     [this.sets, this.list, this.size] = ['set', 'mode', 'sway'].map(find);
-    [this.play, this.over, this.rest] = ['play', 'over', 'rest'].map(find);
+    [this.play, this.over, this.rest, this.change] = ['play', 'over', 'rest', 'change'].map(find);
     this.text = root.querySelector('.caption');
     data.sets.forEach((s, i) => this.sets.add(new Option(s.title, i)));
     const model = data.sets.findIndex(s => s.kind === 'model');
     this.sets.value = Math.max(0, model);
     this.sets.addEventListener('change', () => this.choose(this.partner()));
     this.list.addEventListener('change', () => this.take());
-    for (const box of [this.over, this.rest]) box.addEventListener('change', () => this.take());
+    for (const box of [this.over, this.rest, this.change]) box.addEventListener('change', () => this.take());
     this.size.addEventListener('input', () => this.viewer.paint());
     this.play.addEventListener('click', () => this.run(!this.playing));
     window.addEventListener('beforeprint', () => { this.phase = Math.PI / 2; });  // print shows the largest displacement
@@ -64,6 +65,7 @@ class ModeShapes {
     this.list.replaceChildren(...this.set.modes.map((m, i) => new Option(`${m.label}: ${m.frequency.toFixed(3)} Hz`, i)));
     this.list.value = index;
     this.root.querySelector('.for-points').hidden = this.set.kind !== 'points' || this.set.mesh === null;
+    this.root.querySelector('.for-models').hidden = !this.earlier();
     this.take();
   }
 
@@ -73,6 +75,7 @@ class ModeShapes {
     const none = new Uint32Array(0), nowhere = new Float32Array(0);
     const scene = { base: nowhere, faces: none, lines: none, spots: nowhere, names: [], dot: 9, ghost: this.rest.checked, spotsOnTop: true };
     this.along = null;
+    this.apart = this.change.checked ? this.difference() : null;
     if (set.kind === 'model') {
       Object.assign(scene, { base: mesh.points, faces: mesh.faces, lines: mesh.lines, spots: mesh.held, names: mesh.marks.map(k => k.words), dot: 7 });
       this.real = this.imaginary = null;
@@ -98,6 +101,26 @@ class ModeShapes {
     this.describe();
   }
 
+  /// The model that the chosen one came from, on the same nodes: the last of the list.
+  earlier() {
+    const other = this.data.sets[this.data.sets.length - 1];
+    if (this.set.kind !== 'model' || other === this.set || other.kind !== 'model') return null;
+    const here = this.meshes[this.set.mesh].points, there = this.meshes[other.mesh].points;
+    return here.length === there.length && here.every((x, i) => x === there[i]) ? other : null;
+  }
+
+  /// The mode of the earlier model that is closest in shape, with the length of the difference at each node as a share of the largest displacement.
+  difference() {
+    const other = this.earlier();
+    if (!other) return null;
+    const own = this.shape(this.mode, 'shape', Int16Array), dot = (a, b) => a.reduce((sum, x, i) => sum + x * b[i], 0);
+    const macs = other.modes.map(m => { const its = this.shape(m, 'shape', Int16Array); return dot(own, its) ** 2 / (dot(own, own) * dot(its, its)); });
+    const mode = other.modes[macs.indexOf(Math.max(...macs))], its = this.shape(mode, 'shape', Int16Array), factor = dot(own, its) / dot(its, its);
+    const length = new Float32Array(own.length / 3);
+    for (let n = 0; n < length.length; ++n) length[n] = Math.hypot(...[0, 1, 2].map(k => own[3 * n + k] - factor * its[3 * n + k])) / 32767;
+    return { length, most: length.reduce((a, b) => Math.max(a, b), LEAST_CHANGE), mode, mac: Math.max(...macs), title: other.title };
+  }
+
   shape(mode, part, type) {
     if (!this.shapes.has(mode)) this.shapes.set(mode, {});
     const kept = this.shapes.get(mode);
@@ -113,6 +136,9 @@ class ModeShapes {
       text += `. Closest in shape: mode ${partner.label} of the ${first.title.toLowerCase()}, `
         + `${partner.frequency.toFixed(4)} Hz, MAC ${mode.mac.toFixed(2)}`;
     }
+    if (this.apart)
+      text += `. Colour: difference to mode ${this.apart.mode.label} of the ${this.apart.title.toLowerCase()}, ${this.apart.mode.frequency.toFixed(4)} Hz, `
+        + `MAC ${this.apart.mac.toFixed(3)}; red is ${(100 * this.apart.most).toPrecision(2)} % of the largest displacement`;
     this.text.textContent = `${text}.`;
   }
 
@@ -123,7 +149,8 @@ class ModeShapes {
       const { shape, scale } = this.along, part = sway * c * scale;
       for (let i = 0; i < base.length; i += 3) {
         for (let k = 0; k < 3; ++k) v.moved[i + k] = base[i + k] + part * shape[i + k];
-        blend([PALE, BLUE, NAVY], Math.abs(scale) * Math.hypot(shape[i], shape[i + 1], shape[i + 2]), v.colours, i);
+        if (this.apart) blend([PALE, AMBER, RED], this.apart.length[i / 3] / this.apart.most, v.colours, i);
+        else blend([PALE, BLUE, NAVY], Math.abs(scale) * Math.hypot(shape[i], shape[i + 1], shape[i + 2]), v.colours, i);
       }
     } else {
       v.moved.set(base);
