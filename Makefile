@@ -34,11 +34,11 @@ else
 include $(PRODUCT)workflows/steps.mk
 endif
 
-.PHONY: bench-places check compare decks baseline moves prose checksums check-power paper blind-trials blind-modes score help help-all all look deps build test unit steps tables figures report verify \
+.PHONY: bench-places check compare xlsx decks baseline moves prose checksums check-power paper blind-trials blind-modes score help help-all all look deps build test unit steps tables figures report verify \
   smoke bench growth format fuzz sanitize processors reproduce-check calibrate calibrate-trade why new reference clean install package bare-root release coverage mutants hold docs FORCE
 
 # What one needs who uses the product; `make help-all` lists what its developers need as well.
-FOR_USERS := look all new check report verify compare why install test
+FOR_USERS := look all new check report verify compare xlsx why install test
 LISTED = sed -n $(foreach target,$(1),-e 's/^\($(target)\):.*$(hash)$(hash) \(.*\)/  make \1 |\2/p') $(firstword $(MAKEFILE_LIST)) | { column -t -s '|' 2>/dev/null || cat; }
 
 help: ## the targets that a user needs
@@ -215,6 +215,9 @@ format: ## lay the C++ sources out as .clang-format says (Debian: clang-format)
 
 compare: ## make compare A=results/x B=results/y: two runs beside each other: options, parameters, frequencies, verdicts, what moved by how much
 	@$(PRODUCT)workflows/python.sh -m twindeck_compare "$(A)" "$(B)"
+
+xlsx: ## every table of the study's results in one workbook, results/STUDY/tables.xlsx (Debian: python3-openpyxl)
+	@$(PRODUCT)workflows/python.sh -m twindeck_export --xlsx 'results/$(STUDY)'
 
 why: ## make why s6: why that step would run again
 	@$(PRODUCT)workflows/why.sh "$(STEP)" $(STUDY) $(PRODUCT)Makefile
