@@ -145,11 +145,11 @@ std::string describe(const Step& step, const std::string& key) {
 
 /// What the file system does not allow, with what helps.
 InputError in_words(const fs::filesystem_error& error) {
-  struct Words {
+  struct Refusal {
     std::errc code;
     const char *problem, *mend;
   };
-  constexpr Words known[] = {
+  constexpr Refusal known[] = {
       {std::errc::too_many_symbolic_link_levels, "is a link that leads back to itself",
        "let it point to the file or folder that is meant"},
       {std::errc::filename_too_long, "is a name that is too long for the file system", "choose a shorter one"},
@@ -159,8 +159,8 @@ InputError in_words(const fs::filesystem_error& error) {
   };
   constexpr std::size_t longest_name = 200;  // letters: of a name that is too long messages say no more
   const std::string name = error.path1().string().substr(0, longest_name);
-  for (const Words& words : known) {
-    if (error.code() == words.code) return InputError({name, 0, ""}, words.problem, words.mend);
+  for (const Refusal& refusal : known) {
+    if (error.code() == refusal.code) return InputError({name, 0, ""}, refusal.problem, refusal.mend);
   }
   return InputError({name, 0, ""}, error.code().message(), "check the path, and what the machine allows");
 }

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "chain.hpp"
+#include "diagnosis/form_frame.hpp"
 
 namespace twindeck::tests {
 namespace {
@@ -116,7 +117,8 @@ TEST(WithFormError, AddsErrorsWhoseVarianceGoesWithTheSquareOfTheLevel) {
 
 diagnosis::FormLevel level_of(const Examined& e) {
   const auto prior = e.map->base(VectorXd::Zero(std::ssize(e.map->nuisances())));
-  return diagnosis::level_of_fits(*e.inference, contrasts_of(e.map->features()), prior, e.map->predict(prior, {}, false).g);
+  return diagnosis::level_of_fits(*e.inference, diagnosis::contrasts_of(e.map->features()), prior,
+                                  e.map->predict(prior, {}, false).g);
 }
 
 TEST(LevelOfFits, StandsALargerErrorWhereTheModelIsFarOff) {
