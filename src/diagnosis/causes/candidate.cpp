@@ -274,21 +274,23 @@ struct AskedStates {
   std::string when;  ///< as Candidate::when
 };
 
-/// In all states, as an error of the model; in one state alone or, where there are three and more, from one state on: what was
-/// cut stays cut unless it is repaired.
+/// In one state alone or, where there are three and more, from one state on: what was cut stays cut unless it is repaired. In
+/// all states it is an error of the model.
 std::vector<AskedStates> states_asked(const Hypothesis& h, const std::vector<std::string>& states) {
   if (states.size() < 2 || !is_a_part(h)) return {{}};
-  std::vector<AskedStates> out = {{}};
+  std::vector<AskedStates> out;
   for (auto state = states.begin() + 1; state != states.end(); ++state) out.push_back({{*state}, "state " + *state});
   for (auto state = states.begin() + 1; state + 1 != states.end(); ++state)
     out.push_back({{state, states.end()}, fmt::format("from state {} on", *state)});
   // What a later state has more of, the first may have lost: a factor says both, what is added needs to be asked twice.
   const bool adds = std::all_of(h.actions.begin(), h.actions.end(),
                                 [](const ActionSpec& a) { return a.kind == "mass.add" || a.kind.starts_with("element."); });
-  if (!adds) return out;
-  out.push_back({{states.front()}, "state " + states.front()});
-  for (auto state = states.begin() + 2; state < states.end(); ++state)
-    out.push_back({{states.begin(), state}, "before state " + *state});
+  if (adds) {
+    out.push_back({{states.front()}, "state " + states.front()});
+    for (auto state = states.begin() + 2; state < states.end(); ++state)
+      out.push_back({{states.begin(), state}, "before state " + *state});
+  }
+  out.emplace_back();
   return out;
 }
 
