@@ -84,8 +84,8 @@ bool TextLines::next(std::string& line) {
     }
     append_utf8(static_cast<std::uint32_t>(code), line);
   }
-  without_end_ = true;
-  return !line.empty();
+  without_end_ = !line.empty();
+  return without_end_;
 }
 
 std::string text_of_file(const std::filesystem::path& file) {

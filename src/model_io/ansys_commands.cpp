@@ -44,7 +44,7 @@ bool to_assignment(const std::string& text, Command& command) {
 }
 
 Command to_command(const std::string& text, const std::filesystem::path* file, long line) {
-  constexpr std::size_t letters = 4, longest_name = 8;  // that tell commands apart; of which messages say no more
+  constexpr std::size_t letters = 4, longest_name = 12;  // that tell commands apart; of which messages say no more
   Command command;
   command.file = file;
   command.line = line;
