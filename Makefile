@@ -38,7 +38,7 @@ endif
   smoke bench growth format fuzz sanitize processors reproduce-check calibrate calibrate-trade why new reference clean install package bare-root release coverage mutants hold docs FORCE
 
 # What one needs who uses the product; `make help-all` lists what its developers need as well.
-FOR_USERS := look all new check report verify compare xlsx why install test
+FOR_USERS := look all new check report verify compare why install test
 LISTED = sed -n $(foreach target,$(1),-e 's/^\($(target)\):.*$(hash)$(hash) \(.*\)/  make \1 |\2/p') $(firstword $(MAKEFILE_LIST)) | { column -t -s '|' 2>/dev/null || cat; }
 
 help: ## the targets that a user needs

@@ -317,23 +317,25 @@ void ElementPlaces::add_nodes(const std::vector<int>& chosen, Places& places) co
   }
 }
 
-void ElementPlaces::add_groups(Places& places) const {
-  struct Group {
-    Sum stiffness, mass;
-    Eigen::Vector3d sum = Eigen::Vector3d::Zero();
-    int count = 0;
-    std::vector<int> elements;
-    std::vector<const fe::Spring*> springs;
-    void join(const Group& other) {
-      const auto append = [](auto& to, const auto& from) { to.insert(to.end(), from.begin(), from.end()); };
-      append(stiffness.entries, other.stiffness.entries);
-      append(mass.entries, other.mass.entries);
-      append(elements, other.elements);
-      append(springs, other.springs);
-      sum += other.sum;
-      count += other.count;
-    }
-  };
+/// Elements, and springs between nodes, of one or several groups.
+struct ElementPlaces::Group {
+  ElementSum stiffness, mass;
+  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+  int count = 0;
+  std::vector<int> elements;
+  std::vector<const fe::Spring*> springs;
+  void join(const Group& other) {
+    const auto append = [](auto& to, const auto& from) { to.insert(to.end(), from.begin(), from.end()); };
+    append(stiffness.entries, other.stiffness.entries);
+    append(mass.entries, other.mass.entries);
+    append(elements, other.elements);
+    append(springs, other.springs);
+    sum += other.sum;
+    count += other.count;
+  }
+};
+
+std::vector<std::pair<std::string, ElementPlaces::Group>> ElementPlaces::groups() const {
   std::vector<std::string> order;
   std::map<std::string, Group> groups;
   const auto group_of = [&](const std::string& name) -> Group& {
@@ -363,6 +365,12 @@ void ElementPlaces::add_groups(Places& places) const {
     group.sum += model_.nodes[static_cast<std::size_t>(spring.node)].x_m;
     ++group.count;
   }
+  std::vector<std::pair<std::string, Group>> out;
+  for (const std::string& name : order) out.emplace_back(name, std::move(groups.at(name)));
+  return out;
+}
+
+void ElementPlaces::add_groups(Places& places) const {
   std::vector<Place>& set = places.sets["groups"];
   const std::vector<Place> of_parameters = set;
   const auto add = [&](const std::string& id, const Group& group) {
@@ -377,12 +385,18 @@ void ElementPlaces::add_groups(Places& places) const {
     place.mass_law = laws_.mass(group.elements);
     set.push_back(std::move(place));
   };
-  for (const std::string& name : order) add("group:" + name, groups.at(name));
+  std::vector<std::string> order;
+  std::map<std::string, Group> found;
+  for (auto& [name, group] : groups()) {
+    add("group:" + name, group);
+    order.push_back(name);
+    found.emplace(name, std::move(group));
+  }
   for (const std::vector<std::string>& names : composite_groups(order)) {
     Group together{{expansion_.rows(), {}}, {expansion_.rows(), {}}, Eigen::Vector3d::Zero(), 0, {}, {}};
     std::string id;
     for (const std::string& name : names) {
-      together.join(groups.at(name));
+      together.join(found.at(name));
       id += (id.empty() ? "groups:" : ",") + name;
     }
     add(id, together);

@@ -43,6 +43,8 @@ class ElementPlaces {
 
  private:
   using Sum = ElementSum;
+  struct Group;
+  [[nodiscard]] std::vector<std::pair<std::string, Group>> groups() const;  ///< in the order in which the model has them
   [[nodiscard]] Symmetric free(const Sum& sum) const { return sum.free(expansion_); }
   [[nodiscard]] fe::ElementMatrix stay_stiffness(std::size_t element, double pull) const;
   [[nodiscard]] double pull_of(std::size_t element) const;
