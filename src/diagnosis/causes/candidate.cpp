@@ -290,7 +290,9 @@ std::vector<AskedStates> states_asked(const Hypothesis& h, const std::vector<std
     for (auto state = states.begin() + 2; state < states.end(); ++state)
       out.push_back({{states.begin(), state}, "before state " + *state});
   }
-  out.emplace_back();
+  const bool happens =
+      std::any_of(h.actions.begin(), h.actions.end(), [](const ActionSpec& action) { return action.kind == "support.settle"; });
+  if (!happens) out.emplace_back();  // the model does not err by what happened before the first state
   return out;
 }
 
