@@ -206,10 +206,9 @@ void collect_entries(const LawSetting& setting, LawSearch& search) {
     search.entries.push_back(std::move(entry));
   }
   for (LawEntry& entry : search.entries) {
-    // An error of the model beside a change is no answer, and no alarm hangs on its odds.
-    const bool in_all_alike = entry.contrast < 0 && !is_of_a_channel(*entry.candidate) && !is_model_error(setting, entry);
-    entry.log_prior = entry.candidate->log_prior - std::log(share.at(class_of(entry))) +
-                      (in_all_alike ? setting.static_odds : kOddsOfAChange);
+    const bool everywhere = entry.contrast < 0 && !is_of_a_channel(*entry.candidate);
+    entry.log_prior =
+        entry.candidate->log_prior - std::log(share.at(class_of(entry))) + (everywhere ? setting.static_odds : kOddsOfAChange);
   }
   search.system.signatures.resize(std::ssize(setting.plain.training()), std::ssize(columns));
   for (std::size_t k = 0; k < columns.size(); ++k) search.system.signatures.col(static_cast<Index>(k)) = columns[k];

@@ -105,8 +105,7 @@ bool acts_in_contrast(const LawSearch& search, const LawAccount& account, int co
   });
 }
 
-/// A set with its causes in the model, fitted from each start; of fits the one of the largest evidence counts, and it takes the
-/// place of what the screen found.
+/// A set with its causes in the model, fitted from each start; the largest evidence counts.
 void refine_by_law(const LawSetting& setting, const LawSearch& search, LawAccount& account,
                    const std::vector<VectorXd>& starts) {
   std::vector<Cause> start = search.base.causes;
@@ -146,9 +145,8 @@ void refine_by_law(const LawSetting& setting, const LawSearch& search, LawAccoun
         hypothesis.high[at] = with.causes[c].candidate->high[k] - with.causes[c].a[k];
       }
     const LawEvidence evidence = law.scored(hypothesis, tau);
-    const double weight = evidence.log_evidence + account.log_prior;
-    if (evidence.weight.size() == 0 || (account.refined() && !(weight > account.log_weight))) continue;
-    account.log_weight = weight;
+    if (!(evidence.log_evidence + account.log_prior > account.log_weight)) continue;
+    account.log_weight = evidence.log_evidence + account.log_prior;
     account.evidence = evidence;
     account.hypothesis = std::move(hypothesis);
     account.effect = effect;
@@ -206,8 +204,9 @@ std::vector<LawAccount> sets_beside(const LawSetting& setting, const LawSearch& 
     const auto entry =
         std::find_if(search.entries.begin(), search.entries.end(), [&](const LawEntry& e) { return e.candidate == candidate; });
     const auto position = static_cast<int>(entry - search.entries.begin());
-    const auto is_known = [&](int m) { return is_same_cause(search.entries[static_cast<std::size_t>(m)], *entry); };
-    if (entry == search.entries.end() || std::any_of(leader.members.begin(), leader.members.end(), is_known)) continue;
+    if (entry == search.entries.end() ||
+        std::find(leader.members.begin(), leader.members.end(), position) != leader.members.end())
+      continue;
     LawAccount set;
     set.members = leader.members;
     set.members.push_back(position);
@@ -280,14 +279,6 @@ std::vector<LawAccount*> leading_accounts(LawSearch& search, const std::set<int>
 }
 
 }  // namespace
-
-bool is_same_cause(const LawEntry& a, const LawEntry& b) {
-  return a.candidate->hypothesis == b.candidate->hypothesis && a.candidate->location == b.candidate->location;
-}
-
-bool is_model_error(const LawSetting& setting, const LawEntry& entry) {
-  return entry.contrast < 0 && !is_of_a_channel(*entry.candidate) && states_of(setting.plain.map().features()).size() > 1;
-}
 
 double left_of_change(const LawSearch& search, const LawAccount& account) {
   double most = 0.0;
