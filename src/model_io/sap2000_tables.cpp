@@ -1,8 +1,7 @@
 #include "model_io/sap2000_tables.hpp"
 
 #include <algorithm>
-
-#include "io/text_lines.hpp"
+#include <fstream>
 
 namespace twindeck::model_io {
 namespace {
@@ -47,12 +46,12 @@ bool SapRow::yes(const std::string& key) const { return word(position(key)) == "
 
 SapTables::SapTables(const std::filesystem::path& file) {
   files_.push_back(file);
-  io::TextLines stream(file, io::longest_text);
-  if (!stream.opened()) whole("").fail("cannot be opened", "give the path of an .s2k file");
+  std::ifstream stream(file);
+  if (!stream) whole("").fail("cannot be opened", "give the path of an .s2k file");
   std::vector<SapRow>* open = nullptr;
   std::string text, label;
   bool goes_on = false;
-  for (long number = 1; stream.next(text); ++number) {
+  for (long number = 1; std::getline(stream, text); ++number) {
     std::string line = trimmed(text);
     if (line.starts_with("TABLE:")) {
       const std::size_t quote = line.find('"'), end = line.find('"', quote + 1);

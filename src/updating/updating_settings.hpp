@@ -38,9 +38,8 @@ struct UpdatingSettings {
   [[nodiscard]] bool weighs_shapes() const;
   /// Whether rows are weighed by their covariance; false: relative frequencies, Eq. (5).
   [[nodiscard]] bool weighs() const;
-  /// @param elsewhere, regularised  see UpdatingOptions
-  [[nodiscard]] UpdatingOptions options(std::uint64_t seed, std::vector<Eigen::VectorXd> elsewhere = {},
-                                        bool regularised = true) const;
+  /// @param elsewhere  see UpdatingOptions
+  [[nodiscard]] UpdatingOptions options(std::uint64_t seed, std::vector<Eigen::VectorXd> elsewhere = {}) const;
 };
 
 }  // namespace twindeck::updating

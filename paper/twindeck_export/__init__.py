@@ -1,1 +1,0 @@
-"""Tables of a study as one workbook of Excel (.xlsx)."""
