@@ -86,7 +86,8 @@ def moved(held, found):
             out.append(f"{name} is {'gone' if row.where == 'left_only' else 'new'}")
             continue
         # An imaginary part is judged by the size of the whole number: beside a real one it may be rounding alone.
-        size = max(float(row.rms), scale.get((row.file, row.column.removesuffix("_imag")), 0.0))
+        # The square of a number below 1e-154 is zero, and so is the rms of a p-value there.
+        size = max(float(row.rms), scale.get((row.file, row.column.removesuffix("_imag")), 0.0)) or abs(float(row.in_order))
         if row.rows != row.rows_now or row.words != row.words_now:
             out.append(f"{name} has other rows or words")
         elif any(abs(float(a) - float(b)) > TOLERANCE * size for a, b in ((row.rms, row.rms_now), (row.in_order, row.in_order_now))):
