@@ -34,7 +34,7 @@ else
 include $(PRODUCT)workflows/steps.mk
 endif
 
-.PHONY: bench-places check compare decks baseline moves prose checksums check-power paper blind-trials blind-modes score help help-all all look deps build test unit steps tables figures report verify \
+.PHONY: bench-places check compare xlsx decks baseline moves prose checksums check-power paper blind-trials blind-modes score help help-all all look deps build test unit steps tables figures report verify \
   smoke bench growth format fuzz sanitize processors reproduce-check calibrate calibrate-trade why new reference clean install package bare-root release coverage mutants hold docs FORCE
 
 # What one needs who uses the product; `make help-all` lists what its developers need as well.
@@ -216,11 +216,14 @@ format: ## lay the C++ sources out as .clang-format says (Debian: clang-format)
 compare: ## make compare A=results/x B=results/y: two runs beside each other: options, parameters, frequencies, verdicts, what moved by how much
 	@$(PRODUCT)workflows/python.sh -m twindeck_compare "$(A)" "$(B)"
 
+xlsx: ## every table of the study's results in one workbook, results/STUDY/tables.xlsx (Debian: python3-openpyxl)
+	@$(PRODUCT)workflows/python.sh -m twindeck_export --xlsx 'results/$(STUDY)'
+
 why: ## make why s6: why that step would run again
 	@$(PRODUCT)workflows/why.sh "$(STEP)" $(STUDY) $(PRODUCT)Makefile
 
-new: ## make new STUDY=my_bridge: a study of your own, that runs as it stands; FROM="logger.csv sensors.csv bridge.inp": out of your own files
-	@TWINDECK_BIN="$(BIN)" $(PRODUCT)workflows/new.sh $(if $(filter STUDY,$(GIVEN)),$(STUDY)) $(if $(FROM),--from $(FROM))
+new: ## make new STUDY=my_bridge: a study of your own, that runs as it stands; TEMPLATE=girder: a footbridge in wind; FROM="logger.csv sensors.csv bridge.inp": out of your own files
+	@TWINDECK_BIN="$(BIN)" $(PRODUCT)workflows/new.sh $(if $(filter STUDY,$(GIVEN)),$(STUDY)) $(if $(TEMPLATE),--$(TEMPLATE)) $(if $(FROM),--from $(FROM))
 
 reference: build ## every configuration key and every column of a file, as docs/reference.md
 	@$(PRODUCT)workflows/python.sh -m twindeck_reference --bin $(BIN) --out docs/reference.md

@@ -67,6 +67,7 @@ set(CPACK_DEBIAN_TWINDECK_PACKAGE_DEPENDS "libopenblas0-pthread, libjs-three, ma
 set(CPACK_DEBIAN_TWINDECK_PACKAGE_SUGGESTS "twindeck-data, calculix-ccx")
 set(CPACK_DEBIAN_DATA_PACKAGE_NAME twindeck-data)
 set(CPACK_DEBIAN_DATA_PACKAGE_ARCHITECTURE all)
+set(CPACK_DEBIAN_TWINDECK_PACKAGE_SUGGESTS "python3-openpyxl")
 set(CPACK_DEBIAN_DATA_PACKAGE_DEPENDS "twindeck (>= ${PROJECT_VERSION}), python3-scipy")
 set(CPACK_COMPONENT_DATA_DESCRIPTION "studies of twindeck: the Ponte del Mare and structures that others measured
 Configurations, published tables and scripts. Measured records are not in it.")

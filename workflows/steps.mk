@@ -21,6 +21,7 @@ ifneq ($(shell grep -s '^features *=.*s3_identification/features' $(WORKFLOW)/st
 READS_s4_refinement += s3_identification
 READS_s6_updating += s3_identification
 READS_s9_diagnosis += s3_identification
+READS_s10_reliability += s3_identification
 # study.toml names them where results usually lie.
 ELSEWHERE := $(if $(filter-out results/$(STUDY),$(RESULTS)),--features $(RESULTS)/s3_identification/features)
 endif
@@ -46,6 +47,7 @@ endif
 MEASURED := $(if $(MODES),--modes '$(MODES)') $(if $(FEATURES),--features '$(FEATURES)')
 OPTIONS_s4_refinement := $(or $(strip $(MEASURED)),$(ELSEWHERE))
 OPTIONS_s6_updating := $(or $(strip $(MEASURED)),$(ELSEWHERE))
+OPTIONS_s10_reliability := $(or $(strip $(MEASURED)),$(ELSEWHERE))
 # Which modes the results rest on is kept beside them, so that the steps run again when that changes, and only then. It is written by a
 # recipe, so that `make -n` writes nothing.
 MEASURED_STAMP := $(RESULTS)/.measured

@@ -6,7 +6,7 @@ import time
 import pandas as pd
 
 from .cells import csv_text, number
-from .figures import figures_of, fragility, reliability_years
+from .figures import figures_of
 from .manifests import stale_inputs, stale_outputs, write_manifest
 from .page.complexity import complexity
 from .page.layout import layout
@@ -14,6 +14,7 @@ from .page.mac import mac_matrices
 from .page.parts import common_parts
 from .page.pieces import image, quantities, render, text
 from .page.quality import quality
+from .page.reliability import reliability
 from .page.source import read_source
 from .page.spectra import spectra
 from .study import Study
@@ -41,8 +42,6 @@ LONG_TEXT = 30  # letters; a cell with more of them gets room, so that its row d
 FIGURES = {
     "sensitivity_map": ("Sensitivities", "Relative sensitivities d ln f / d ln p of the model's modes, exact derivatives. Parameters in blue were selected for updating; "
                         "the bars show each parameter's score."),
-    "fragility": ("Fragility in wind", fragility.CAPTION),
-    "reliability_years": ("Importance, and the years", reliability_years.CAPTION),
     "updating_history": ("The updating", "Cost and parameters, divided by the sizes of their initial values (by their ranges where those are 0), over the iterations of the best start. Grey: outside the bounds; red: parameters "
                          "that end on one. Dashed lines: the prestress was computed anew."),
 }
@@ -135,7 +134,7 @@ def write_own_report(study: Study):
         "own_report.html.j2", **common_parts(study, settings), paper_sections=False, source=read_source(study), tables=tables,
         figures=figures, tiles=[], model=quantities(study, "s1_model/summary.csv"), updating=quantities(study, "s6_updating/summary.csv"),
         bounds=_on_bounds(study), layout=layout(study, settings), quality=quality(study), spectra=spectra(study), complexity=complexity(study),
-        macs=mac_matrices(study))
+        macs=mac_matrices(study), reliability=reliability(study))
     target = study.results / "report" / "report.html"
     target.parent.mkdir(parents=True, exist_ok=True)
     target.write_text(page, encoding="utf-8")

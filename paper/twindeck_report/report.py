@@ -8,6 +8,7 @@ from .figures import figures_of
 from .ladder import ladder
 from .page.parts import common_parts
 from .page.pieces import image, quantities, render, six, text
+from .page.reliability import PICTURES, reliability
 from .statements import critical_rows, ranges_of_table_13
 from .power import power_page
 from .study import Study
@@ -21,11 +22,11 @@ def write_report(study: Study) -> Path:
     settings = study.read_toml(study.workflow / "study.toml")
     result = run_check(study)
     tables = [{"number": n, "name": table_name(n), "html": text(study, f"tables/{table_name(n)}.html")} for n in TABLES]
-    figures = [{"name": f.NAME, "caption": f.CAPTION, "png": image(study, f.NAME)} for f in figures_of(study)]
+    figures = [{"name": f.NAME, "caption": f.CAPTION, "png": image(study, f.NAME)} for f in figures_of(study) if f.NAME not in PICTURES]
     page = render(
         "report.html.j2", **common_parts(study, settings), paper_sections=True, measured=settings.get("measured", "published"), result=result,
         cells=[_cell(c) for c in result.cells], kinds=(KIND_HEADER, kind_rows(result)), simplest=simplest_rows(result), percent=percent, tables=tables, figures=figures, tiles=_tiles(result),
-        critical=critical_rows(study), ranges=ranges_of_table_13(study), conclusions=conclude(study, result), ladder=ladder(study),
+        critical=critical_rows(study), ranges=ranges_of_table_13(study), conclusions=conclude(study, result), ladder=ladder(study), reliability=reliability(study),
         bounds=bounds(study), costs=costs(study), left_out=left_out(study), power=power_page(study), trust=trust_region_facts(study), summary=quantities(study, "s6_updating/summary.csv"),
         errata=study.read_toml(study.data / "errata.toml").get("erratum", []), model=quantities(study, "s1_model/summary.csv"))
     target = study.results / "report" / "report.html"

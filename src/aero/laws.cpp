@@ -132,12 +132,17 @@ const std::vector<std::string>& law_names() {
 }
 
 std::vector<BrokenLaw> broken_laws(const Polar& polar, const DerivativeTable& table, const QuasiSteady::Arms& arms) {
-  const std::array<std::optional<std::string>, 5> told = {drag(polar), slopes(polar), moment_slope(polar),
-                                                          pitching_damping(table), quasi_steady(polar, table, arms)};
+  std::vector<BrokenLaw> broken = broken_laws(polar);
+  if (const auto told = pitching_damping(table)) broken.push_back({"pitching_damping", *told});
+  if (const auto told = quasi_steady(polar, table, arms)) broken.push_back({"quasi_steady", *told});
+  return broken;
+}
+
+std::vector<BrokenLaw> broken_laws(const Polar& polar) {
   std::vector<BrokenLaw> broken;
-  for (std::size_t i = 0; i < told.size(); ++i) {
-    if (told[i]) broken.push_back({law_names()[i], *told[i]});
-  }
+  if (const auto told = drag(polar)) broken.push_back({"drag", *told});
+  if (const auto told = slopes(polar)) broken.push_back({"slopes", *told});
+  if (const auto told = moment_slope(polar)) broken.push_back({"moment_slope", *told});
   return broken;
 }
 

@@ -33,5 +33,7 @@ struct BrokenLaw {
 /// @return the laws that are broken, each once, in the order of law_names()
 [[nodiscard]] std::vector<BrokenLaw> broken_laws(const Polar& polar, const DerivativeTable& table,
                                                  const QuasiSteady::Arms& arms);
+/// Those of a polar that has no flutter derivatives beside it.
+[[nodiscard]] std::vector<BrokenLaw> broken_laws(const Polar& polar);
 
 }  // namespace twindeck::aero

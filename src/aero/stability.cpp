@@ -64,7 +64,8 @@ std::string Growth::in_words() const {
 std::optional<Growth> find_growth(const AeroelasticSystem& system, double speed_m_s, const DerivativeFrequencies& frequencies) {
   const std::vector<ComplexMode> frozen = frozen_motions(system, speed_m_s, frequencies.frozen_omega);
   std::optional<ComplexMode> fastest;
-  for (const ComplexMode& motion : frozen) keep_the_faster(fastest, motion);
+  for (const ComplexMode& motion : frozen)
+    if (motion.lambda.imag() <= frequencies.counted_to) keep_the_faster(fastest, motion);
   const bool of_frozen = fastest.has_value();
   if (!of_frozen) {
     for (const ComplexMode& start : frozen) {

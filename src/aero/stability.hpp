@@ -1,5 +1,6 @@
 #pragma once
 
+#include <limits>
 #include <optional>
 #include <string>
 
@@ -20,6 +21,7 @@ struct Growth {
 struct DerivativeFrequencies {
   double frozen_omega = 0.0;        ///< of equations in time
   FrequencyRange own = {0.0, 0.0};  ///< modes in here are also held against derivatives of their own frequency
+  double counted_to = std::numeric_limits<double>::infinity();  ///< highest frequency of a motion that counts
 };
 
 /// The motion that grows fastest at a wind speed, of the equations with frozen derivatives; if none grows there, with

@@ -102,6 +102,7 @@ std::vector<SectionAero> sections_of(const WindSettings& config, const std::vect
     const Polar polar = set == "standin" ? data[i].polar : data[i].polar.with_lift_slope_factor(level);
     DerivativesPtr derivatives;
     if (set == "standin") {
+      TWINDECK_ASSERT(data[i].flutter != nullptr);
       derivatives = std::make_shared<DerivativeTable>(data[i].flutter->scaled(level));
     } else {
       derivatives = std::make_shared<QuasiSteady>(polar, QuasiSteady::Arms{deck.arm_drag, deck.arm_lift, deck.arm_moment});

@@ -19,7 +19,7 @@ namespace twindeck::aero {
 /// What the files hold for one deck.
 struct DeckAerodynamics {
   Polar polar;
-  std::shared_ptr<const DerivativeTable> flutter;
+  std::shared_ptr<const DerivativeTable> flutter;  ///< null: the polar alone, for the set quasi_steady
 };
 /// Aerodynamic sections of a set at a level. "standin": tables and polars, all self-excited forces multiplied by `level`
 /// (chord, mass and share of the mode are as unknown as the derivatives, and all of them enter as one factor); "quasi_steady":

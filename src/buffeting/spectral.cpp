@@ -38,6 +38,38 @@ MatrixXd split_transfer(const MatrixXcd& transfer, const Eigen::VectorXcd& point
   return split;
 }
 
+/// A slope's change of the impedance between pairs of vectors: parts that are zero are not multiplied.
+struct ImpedanceParts {
+  const SystemSlope& slope;
+  bool of_stiffness, of_damping;
+  explicit ImpedanceParts(const SystemSlope& of)
+      : slope(of), of_stiffness(!of.stiffness.isZero(0.0) || !of.mass.isZero(0.0)), of_damping(!of.damping.isZero(0.0)) {}
+
+  /// @param left, right  (m × n)  @return (n) real parts of left_i' dZ right_i, not conjugated
+  [[nodiscard]] VectorXd between(const aero::AeroelasticSystem& system, const MatrixXcd& left, const MatrixXcd& right,
+                                 double omega) const {
+    MatrixXcd product = MatrixXcd::Zero(right.rows(), right.cols());
+    MatrixXd split(right.rows(), 2 * right.cols());
+    split << right.real(), right.imag();
+    if (of_stiffness) {
+      const MatrixXd real = (slope.stiffness - omega * omega * slope.mass) * split;
+      product.real() += real.leftCols(right.cols());
+      product.imag() += real.rightCols(right.cols());
+    }
+    if (of_damping) {
+      const MatrixXd imaginary = omega * slope.damping * split;
+      product.real() -= imaginary.rightCols(right.cols());
+      product.imag() += imaginary.leftCols(right.cols());
+    }
+    if (slope.maxwell != 0.0) {
+      for (const aero::MaxwellUnit& unit : system.structure().maxwell)  // in proportion to both constants
+        product += slope.maxwell * maxwell_stiffness(unit, omega) * unit.direction.cast<std::complex<double>>() *
+                   (unit.direction.transpose() * right);
+    }
+    return left.cwiseProduct(product).real().colwise().sum().transpose();
+  }
+};
+
 /// Size and phase of a field's turbulence at each strip.
 Eigen::VectorXcd turbulence_at_points(const wind::FieldDefinition& field, double f_Hz) {
   return wind::spectra(field, f_Hz).cwiseSqrt().cwiseProduct(wind::drift(field, f_Hz));
@@ -88,7 +120,11 @@ MatrixXd response_spectra(const aero::AeroelasticSystem& system, double speed_m_
         impedance(system, is_frozen ? frozen : system.self_excited(speed_m_s, std::max(omega, options.lowest_omega)), omega)
             .transpose();
     const MatrixXcd left = z.partialPivLu().solve(sensors.transpose().cast<std::complex<double>>());
-    const MatrixXcd transfer = std::pow(omega, options.derivative) * (left.transpose() * load);
+    const double power = std::pow(omega, options.derivative);
+    const MatrixXd real = power * left.real().transpose() * load, imaginary = power * left.imag().transpose() * load;
+    MatrixXcd transfer(real.rows(), real.cols());
+    transfer.real() = real;
+    transfer.imag() = imaginary;
     const double chi = options.admittance ? options.admittance(f_Hz[k]) : 1.0;
     for (const auto& [field, first] : {std::pair{&along, Index{0}}, std::pair{&vertical, strips}}) {
       const MatrixXd split = split_transfer(transfer.middleCols(first, strips), turbulence_at_points(*field, f_Hz[k]));
@@ -108,27 +144,30 @@ std::vector<MatrixXd> response_spectra_slopes(const aero::AeroelasticSystem& sys
   const Index strips = along.size(), rows = sensors.rows(), n = std::ssize(slopes);
   std::vector<MatrixXd> out(static_cast<std::size_t>(rows), MatrixXd::Zero(f_Hz.size(), n));
   const aero::AeroelasticSystem::Block frozen = system.self_excited(speed_m_s, options.frozen_omega);
+  const std::vector<ImpedanceParts> parts(slopes.begin(), slopes.end());
   parallel_for(f_Hz.size(), [&](Index k) {
     const double omega = 2.0 * std::numbers::pi * f_Hz[k];
     const Eigen::PartialPivLU<MatrixXcd> factor(impedance(system, frozen, omega).transpose());
     const MatrixXcd left = factor.solve(sensors.transpose().cast<std::complex<double>>());
-    MatrixXcd right(left.rows(), rows * n);
-    for (Index p = 0; p < n; ++p)
-      right.middleCols(rows * p, rows) = impedance_slope(system, slopes[static_cast<std::size_t>(p)], omega).transpose() * left;
-    const MatrixXcd changed = factor.solve(right);
-    const double scale = std::pow(omega, 2 * options.derivative) * (options.admittance ? options.admittance(f_Hz[k]) : 1.0);
+    // With t = left' R of a field, C its coherence and s = C t*:  d(t C t*) = 2 Re(dt s), and dt s = -left' dZ Z^-1 (R s) +
+    // left' dR s. One solution a sensor serves all slopes.
+    MatrixXcd weights(2 * strips, rows);
+    VectorXd square = VectorXd::Zero(rows);
     for (const auto& [field, first] : {std::pair{&along, Index{0}}, std::pair{&vertical, strips}}) {
       const Eigen::VectorXcd point = turbulence_at_points(*field, f_Hz[k]);
-      const MatrixXd split = split_transfer(left.transpose() * load.middleCols(first, strips), point);
-      const MatrixXd through = split * wind::coherence(*field, f_Hz[k]);
-      for (Index p = 0; p < n; ++p) {
-        const SystemSlope& slope = slopes[static_cast<std::size_t>(p)];
-        MatrixXcd transfer = -changed.middleCols(rows * p, rows).transpose() * load.middleCols(first, strips);
-        if (slope.load.size() > 0) transfer += left.transpose() * slope.load.middleCols(first, strips);
-        const MatrixXd change = split_transfer(transfer, point) + slope.turbulence * split;
-        const VectorXd product = 2.0 * scale * through.cwiseProduct(change).rowwise().sum();
-        for (Index row = 0; row < rows; ++row) out[static_cast<std::size_t>(row)](k, p) += product[row] + product[rows + row];
-      }
+      const MatrixXcd transfer = (left.transpose() * load.middleCols(first, strips)) * point.asDiagonal();
+      const MatrixXcd through = wind::coherence(*field, f_Hz[k]) * transfer.adjoint();
+      square += transfer.transpose().cwiseProduct(through).real().colwise().sum().transpose();
+      weights.middleRows(first, strips) = point.asDiagonal() * through;
+    }
+    const MatrixXcd answer = factor.transpose().solve(load * weights);
+    const double scale =
+        2.0 * std::pow(omega, 2 * options.derivative) * (options.admittance ? options.admittance(f_Hz[k]) : 1.0);
+    for (Index p = 0; p < n; ++p) {
+      const SystemSlope& slope = slopes[static_cast<std::size_t>(p)];
+      VectorXd change = slope.turbulence * square - parts[static_cast<std::size_t>(p)].between(system, left, answer, omega);
+      if (slope.load.size() > 0) change += left.cwiseProduct(slope.load * weights).real().colwise().sum().transpose();
+      for (Index row = 0; row < rows; ++row) out[static_cast<std::size_t>(row)](k, p) = scale * change[row];
     }
   });
   return out;

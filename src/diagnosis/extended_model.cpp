@@ -79,14 +79,18 @@ const fe::Parameter* scale_parameter(std::vector<fe::Parameter>& parameters, Eig
 /// Whether both stiffness and mass of a part go with a parameter.
 bool has_stiffness_and_mass(fe::Target target) { return target == fe::Target::area || target == fe::Target::thickness; }
 
-/// Elements and springs of a group.
-void scale_group(fe::Model& model, const std::string& name, double stiffness, double density, const std::string& tag) {
+/// Elements and springs of some groups, "a" or "a,b".
+void scale_groups(fe::Model& model, const std::string& names, double stiffness, double density, std::string tag) {
+  const auto is_one = [listed = "," + names + ","](const std::string& group) {
+    return !group.empty() && listed.find("," + group + ",") != std::string::npos;
+  };
   std::vector<int> elements;
   for (std::size_t e = 0; e < model.elements.size(); ++e)
-    if (model.elements[e].group == name) elements.push_back(static_cast<int>(e));
+    if (is_one(model.elements[e].group)) elements.push_back(static_cast<int>(e));
+  std::replace(tag.begin(), tag.end(), ',', '+');  // it becomes a name in a table
   scale_materials(model, elements, stiffness, density, tag);
   for (fe::Spring& spring : model.springs)
-    if (spring.group == name && spring.node2 >= 0) spring.stiffness *= stiffness;
+    if (is_one(spring.group) && spring.node2 >= 0) spring.stiffness *= stiffness;
 }
 
 /// Whether a spring is of the support that a place names: "pier", or "pier fixed" for what is rigid of it where springs have
@@ -189,7 +193,7 @@ bool apply_scale(Extension& to, const ActionSpec& action) {
   if (c.hypothesis->set == "groups") {
     if (const fe::Parameter* scaled = scale_parameter(to.model.parameters, to.theta, to.name, factor); scaled != nullptr)
       return !has_stiffness_and_mass(scaled->target);
-    scale_group(to.model, to.name, mass ? 1.0 : factor, mass ? factor : 1.0, id);
+    scale_groups(to.model, to.name, mass ? 1.0 : factor, mass ? factor : 1.0, id);
     return true;
   }
   if (c.hypothesis->set == "stays") {

@@ -11,11 +11,10 @@
 #include "diagnosis/form_base.hpp"
 #include "diagnosis/form_frame.hpp"
 #include "diagnosis/inference/one_verdict.hpp"
+#include "diagnosis/law_gain.hpp"
 #include "diagnosis/law_search.hpp"
-#include "diagnosis/mode_blocks.hpp"
 #include "diagnosis/size_of_a_cause.hpp"
 #include "diagnosis/splitting_measurement.hpp"
-#include "linalg/dense.hpp"
 
 namespace twindeck::diagnosis {
 
@@ -25,10 +24,9 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-constexpr double kUnitOfClasses = 0.01, kUnitOfKinks = 0.0025;  // [-] of a scale of 1 (law_frame.hpp)
-constexpr double kFarOff = 0.08;                                // of frequencies: a person is told
-constexpr double kErrorOfSizes = 0.25;  // deviation of ln(size): a law of the rows does not know the units of a wrong model
-constexpr double kGuarded = 15.0;       // nats of the leader: accounts whose predictions are weighed
+constexpr double kUnitOfKinks = 0.0025;  // [-] of a scale of 1 (law_frame.hpp)
+constexpr double kFarOff = 0.08;         // of frequencies: a person is told
+constexpr double kErrorOfSizes = 0.25;   // deviation of ln(size): a law of the rows does not know the units of a wrong model
 
 Scored as_scored(const LawSearch& search, const LawAccount& account, const Inference& informed) {
   const LawEntry& entry = search.entries[static_cast<std::size_t>(account.members.front())];
@@ -42,48 +40,6 @@ Scored as_scored(const LawSearch& search, const LawAccount& account, const Infer
   if (out.a.size() == entry.candidate->low.size()) out.signature = informed.signature(search.base, *entry.candidate, out.a);
   if (out.signature.size() == 0) out.signature = VectorXd::Zero(std::ssize(informed.training()));
   return out;
-}
-
-/// Sigma^-1 at an account's scales; linear magnitudes are unknowns as wide as their range.
-std::shared_ptr<const Precision> precision_at(const LawSystem& system, const VectorXd& tau, const MatrixXd& further) {
-  MatrixXd sigma = system.sigma + linalg::product(further, further.transpose());
-  for (std::size_t c = 0; c < system.classes.size(); ++c)
-    if (const double t = tau[static_cast<Index>(c)]; t > 0.0)
-      sigma += t * t * linalg::product(system.classes[c], system.classes[c].transpose());
-  const MatrixXd lower = linalg::cholesky_factor(sigma);
-  TWINDECK_ASSERT(lower.size() > 0);
-  const MatrixXd inverse = linalg::lower_solve(lower, MatrixXd::Identity(sigma.rows(), sigma.rows()));
-  auto out = std::make_shared<Precision>();
-  out->matrix = linalg::product(inverse, inverse, true);
-  out->log_determinant = 2.0 * lower.diagonal().array().log().sum();
-  return out;
-}
-
-/// An account as a law of the rows, its weight from all rows being the account's own.
-Explanation explanation_by_law(const LawSearch& search, const LawAccount& account) {
-  const LawHypothesis& h = account.hypothesis;
-  const LawSystem& system = account.refined() ? *account.system : search.system;
-  const VectorXd deviation = (h.high - h.low) / std::sqrt(12.0);
-  Explanation out{precision_at(system, account.evidence.tau, h.slopes * deviation.asDiagonal()), h.left, h.log_weight};
-  if (h.slopes.cols() > 0) out.left.colwise() -= h.slopes * (0.5 * (h.high + h.low));
-  std::vector<double> terms;
-  for (Index k = 0; k < out.left.cols(); ++k)
-    terms.push_back(out.log_weight[k] -
-                    0.5 * (out.left.col(k).dot(out.precision->matrix * out.left.col(k)) + out.precision->log_determinant));
-  out.log_weight.array() += account.log_weight - log_sum(terms);
-  return out;
-}
-
-PredictiveGain gain_by_law(const LawSetting& setting, const LawSearch& search, int bootstrap, std::uint64_t seed) {
-  LawAccount nothing;
-  nothing.evidence = search.none;
-  nothing.log_weight = search.none.log_evidence;
-  nothing.hypothesis = {search.system.residual, VectorXd::Zero(1), MatrixXd(search.system.residual.size(), 0), {}, {}, {}};
-  std::vector<Explanation> entries;
-  for (const LawAccount& account : search.accounts)
-    if (account.scored && account.log_weight > search.accounts.front().log_weight - kGuarded)
-      entries.push_back(explanation_by_law(search, account));
-  return gain_of_odds(mode_blocks(setting.plain, search.base), explanation_by_law(search, nothing), entries, bootstrap, seed);
 }
 
 /// Posterior of a scale: its mode in ln tau and two quantiles of Laplace's approximation.
@@ -127,6 +83,7 @@ class ByLaw {
                        "leave frequency_floor and shape_floor at their defaults (0.001 and 0.01)");
     std::erase_if(search_.accounts,
                   [&](const LawAccount& account) { return std::ssize(account.members) > std::max(options_.most_causes, 1); });
+    part_model_errors();
     for (const LawAccount& account : search_.accounts)
       if (account.members.size() == 1) out_.ranking.push_back(as_scored(search_, account, setting_.informed));
     leave_out_refused_sets();
@@ -143,6 +100,7 @@ class ByLaw {
       reason_ = "a cause stands out, and most_causes allows none";
     }
     if (out_.verdict == Verdict::named || out_.verdict == Verdict::ambiguous) accept();
+    tell_model_errors();
     out_.form->frequency = estimate_of(winner_, kFrequencies);
     out_.form->shape = estimate_of(winner_, kShapes);
     out_.form->classes = classes_in_words(winner_, setting_.contrasts);
@@ -167,15 +125,42 @@ class ByLaw {
   }
 
  private:
+  [[nodiscard]] bool is_model_error(int member) const {
+    return diagnosis::is_model_error(setting_, search_.entries[static_cast<std::size_t>(member)]);
+  }
+
+  /// What acts in all states alike is no change: it competes as an error of the model.
+  void part_model_errors() {
+    const auto first = std::stable_partition(search_.accounts.begin(), search_.accounts.end(), [&](const LawAccount& account) {
+      return !std::all_of(account.members.begin(), account.members.end(), [&](int m) { return is_model_error(m); });
+    });
+    search_.model_errors.assign(std::make_move_iterator(first), std::make_move_iterator(search_.accounts.end()));
+    search_.accounts.erase(first, search_.accounts.end());
+  }
+
+  [[nodiscard]] double weight_of_nothing() const {
+    std::vector<double> terms = {search_.none.log_evidence};
+    for (const LawAccount& account : search_.model_errors) terms.push_back(account.log_weight);
+    return log_sum(terms);
+  }
+
+  /// Where no cause is left: whether the rows say that something changed at all.
+  [[nodiscard]] Verdict without_a_cause() const {
+    const double nothing = weight_of_nothing();
+    return std::any_of(search_.else_weight.begin(), search_.else_weight.end(), [&](double w) { return w > nothing; })
+               ? Verdict::unknown
+               : Verdict::none;
+  }
+
   void judge_accounts() {
     std::vector<PossibleAnswer> answers;
     for (const LawAccount& account : search_.accounts) answers.push_back({account.log_weight, false});
     for (const double w : search_.else_weight) answers.push_back({w, true});
-    judgement_ = judge(search_.none.log_evidence, answers);
+    judgement_ = judge(weight_of_nothing(), answers);
   }
 
-  /// A set of causes of which one has no size of its own is none: the next ones are judged without it. One cause alone that is
-  /// refused makes the verdict `unknown` (refuse_sizes).
+  /// A set of causes of which one has no size of its own, or predicts nothing that the others do not, is none: the next ones
+  /// are judged without it. One cause alone that is refused makes the verdict `unknown` (refuse_sizes).
   void leave_out_refused_sets() {
     judge_accounts();
     const auto refused = [&] {
@@ -185,7 +170,7 @@ class ByLaw {
       for (std::size_t c = 0; c < leader.with.causes.size(); ++c)
         if (!objection_to_size(leader.with.causes[c], effect_parameters(setting_.informed, leader.with, c)).empty())
           return true;
-      return false;
+      return !each_cause_predicts(setting_, search_, leader, options_.bootstrap, seed_);
     };
     while (refused()) {
       search_.accounts.erase(search_.accounts.begin());
@@ -198,7 +183,7 @@ class ByLaw {
     if (out_.verdict != Verdict::named && out_.verdict != Verdict::ambiguous) return;
     const double left = left_of_change(search_, search_.accounts.front());
     if (!(left > kMostLeft)) return;
-    out_.verdict = Verdict::unknown;
+    out_.verdict = without_a_cause();
     reason_ = fmt::format("the best cause leaves {:.0f} % of what changed", 100.0 * left);
   }
 
@@ -219,9 +204,7 @@ class ByLaw {
       return is_of_a_channel(*search_.entries[static_cast<std::size_t>(m)].candidate);
     });
     if (out_.form->gain.low > 0.0 || out_.form->gain.blocks.empty() || of_channels) return;  // no block: load tests alone
-    const bool in_all = std::all_of(members.begin(), members.end(),
-                                    [&](int m) { return search_.entries[static_cast<std::size_t>(m)].contrast < 0; });
-    out_.verdict = in_all ? Verdict::none : Verdict::unknown;
+    out_.verdict = without_a_cause();
     reason_ = "the best cause does not predict modes that it was not fitted to";
   }
 
@@ -245,7 +228,8 @@ class ByLaw {
     const LawAccount& leader = **std::min_element(set.begin(), set.end(), fewer);
     if (!put_into_model(leader)) return;
     std::vector<Slot> slots;
-    for (const int m : leader.members) slots.push_back({{m}, {0.0}});
+    for (const int m : leader.members)
+      if (!is_model_error(m)) slots.push_back({{m}, {0.0}});
     for (std::size_t k = 0; k < set.size(); ++k) place(*set[k], probability[k], slots);
     for (std::size_t c = 0; c < slots.size(); ++c) out_.effects.push_back(effect_of_slot(slots[c], c, set));
     if (judgement_.something_else_in_set)
@@ -258,10 +242,28 @@ class ByLaw {
       out_.verdict = Verdict::named;
   }
 
+  /// Errors of the model in all states, beside a change or without one.
+  void tell_model_errors() {
+    const LawAccount* account = out_.verdict == Verdict::none ? leading_model_error(search_)
+                                : out_.effects.empty()        ? nullptr
+                                                              : &search_.accounts.front();
+    if (account == nullptr || !account->refined()) return;
+    for (std::size_t c = 0; c < account->members.size(); ++c) {
+      if (!is_model_error(account->members[c])) continue;
+      Effect effect;
+      effect.cause = account->with.causes[c];
+      effect.parameters = effect_parameters(setting_.informed, account->with, c);
+      widen_sizes(effect.parameters, kErrorOfSizes);
+      out_.form->warnings.push_back("the model errs in all states alike: " + sentence_of(effect));
+    }
+  }
+
   [[nodiscard]] bool put_into_model(const LawAccount& leader) {
     const auto n = static_cast<Index>(setting_.plain.map().nuisances().size());
-    Fit with =
-        fit_near(setting_.informed, leader.causes, VectorXd((leader.refined() ? leader.with : search_.base).map.x.head(n)));
+    std::vector<Cause> changes;
+    for (std::size_t c = 0; c < leader.members.size(); ++c)
+      if (!is_model_error(leader.members[c])) changes.push_back(leader.causes[c]);
+    Fit with = fit_near(setting_.informed, changes, VectorXd((leader.refined() ? leader.with : search_.base).map.x.head(n)));
     if (!with.made()) {
       out_.verdict = Verdict::unknown;
       reason_ = "the best cause cannot be put into the model";
@@ -280,11 +282,11 @@ class ByLaw {
   };
 
   /// Counts a set for the slots of its members; a member without a slot goes to one that the set leaves open.
-  static void place(const LawAccount& account, double probability, std::vector<Slot>& slots) {
+  void place(const LawAccount& account, double probability, std::vector<Slot>& slots) const {
     std::vector<bool> taken(slots.size(), false);
     std::vector<int> strange;
     for (const int m : account.members) {
-      bool found = false;
+      bool found = is_model_error(m);
       for (std::size_t s = 0; s < slots.size() && !found; ++s) {
         const auto at = std::find(slots[s].members.begin(), slots[s].members.end(), m);
         if (at == slots[s].members.end() || taken[s]) continue;
@@ -411,9 +413,10 @@ Diagnosis diagnose(const Inference& whole, const DiagnoseOptions& options, std::
   out.message = "the model predicts none of these rows";
   if (!nominal.valid) return out;
   const Inference& plain = whole;
-  const FeatureMap informed_map = with_form_error(map, prior, nominal.g, level_of_fits(whole, prior, nominal.g));
+  const std::vector<Contrast> contrasts = contrasts_of(map.features());
+  const FeatureMap informed_map = with_form_error(map, prior, nominal.g, level_of_fits(whole, contrasts, prior, nominal.g));
   const Inference informed(informed_map, plain.candidates());
-  const LawSetting setting{plain, informed, contrasts_of(map.features()), options.static_odds};
+  const LawSetting setting{plain, informed, contrasts, options.static_odds};
   out.before = first_fit(informed);
   if (!out.before.made()) {
     out.message += ": " + out.before.map.status.message;

@@ -15,7 +15,6 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-constexpr double kUnit = 0.01;             // [-] scale of every class: about what a carefully fitted model is off
 constexpr double kNoneOfTheModels = 0.05;  // of measured modes: spurious, doubled, or a hybrid that the model lacks
 constexpr double kOpenFrequency = 0.5, kOpenDamping = 1.0;  // deviation of ln f and ln zeta of such a mode
 constexpr double kNoVariance = 1e-12;                       // of the largest pivot: rounding
@@ -112,12 +111,12 @@ LawSystem law_system(const Inference& plain, const Fit& fit, const std::vector<C
   MatrixXd gain(std::ssize(rows), std::ssize(gains));
   for (Index k = 0; k < gain.cols(); ++k) {
     const auto position = static_cast<std::size_t>(gains[static_cast<std::size_t>(k)]);
-    gain.col(k) = kUnit / map.nuisances()[position].deviation * j.col(gains[static_cast<std::size_t>(k)]);
+    gain.col(k) = kUnitOfClasses / map.nuisances()[position].deviation * j.col(gains[static_cast<std::size_t>(k)]);
   }
-  const MatrixXd shape = kUnit * form.shape(rows, Eigen::all);
-  out.classes = {kUnit * form.frequency(rows, Eigen::all),
-                 shape.cols() > shape.rows() ? columns_of(covariance_of(shape)) : shape, kUnit * form.kinks(rows, Eigen::all),
-                 std::move(gain)};
+  const MatrixXd shape = kUnitOfClasses * form.shape(rows, Eigen::all);
+  out.classes = {kUnitOfClasses * form.frequency(rows, Eigen::all),
+                 shape.cols() > shape.rows() ? columns_of(covariance_of(shape)) : shape,
+                 kUnitOfClasses * form.kinks(rows, Eigen::all), std::move(gain)};
   const MatrixXd all = covariance_of(beside({out.classes[kFrequencies], shape, out.classes[kKinks]}, std::ssize(rows)));
   for (const Contrast& contrast : contrasts) {
     const MatrixXd share = along(contrast, map.features(), rows);

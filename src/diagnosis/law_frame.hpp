@@ -12,6 +12,8 @@ namespace twindeck::diagnosis {
 /// Classes of errors in their order in a LawSystem; behind them one for each contrast.
 enum LawClass : int { kFrequencies, kShapes, kKinks, kGains, kFirstContrast };
 
+constexpr double kUnitOfClasses = 0.01;  ///< [-] of a scale of 1: about what a carefully fitted model is off
+
 /// Residual y - g + J x and classes of the training rows at a fit. Unit scale of a class: 1 % of each model mode's frequency;
 /// a random symmetric stiffness of 1 % in the model's modes; 0.25 % of a shape's norm at each mode and channel; 1 % of each
 /// channel's gain. A contrast has those of frequencies, shapes and kinks together, weighted by it. Sigma_0 holds the errors of

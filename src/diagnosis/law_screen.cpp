@@ -98,8 +98,7 @@ class Screen {
         account.log_weight = value + account.log_prior;
         account.evidence.tau = point.tau;
         account.evidence.log_evidence = value;
-        Index best = 0;
-        terms.maxCoeff(&best);
+        const Index best = first_of_equals(terms);
         const auto factor = static_cast<std::size_t>(best) % factors.size(),
                    tried = static_cast<std::size_t>(best) / factors.size();
         account.causes = {{entry.candidate, entry.tried[tried].a}};
@@ -144,6 +143,11 @@ class Screen {
 };
 
 }  // namespace
+
+Index first_of_equals(const VectorXd& terms) {
+  const double top = terms.maxCoeff(), rounding = 1e-9 * (1.0 + std::abs(top));
+  return std::find_if(terms.begin(), terms.end(), [&](double t) { return t >= top - rounding; }) - terms.begin();
+}
 
 // A wrong label of a mode looks like an error of the form.
 bool is_of_a_channel(const Candidate& candidate) { return candidate.hypothesis->measurement && !candidate.channels.empty(); }
@@ -206,9 +210,10 @@ void collect_entries(const LawSetting& setting, LawSearch& search) {
     search.entries.push_back(std::move(entry));
   }
   for (LawEntry& entry : search.entries) {
-    const bool everywhere = entry.contrast < 0 && !is_of_a_channel(*entry.candidate);
-    entry.log_prior =
-        entry.candidate->log_prior - std::log(share.at(class_of(entry))) + (everywhere ? setting.static_odds : kOddsOfAChange);
+    // An error of the model beside a change is no answer, and no alarm hangs on its odds.
+    const bool in_all_alike = entry.contrast < 0 && !is_of_a_channel(*entry.candidate) && !is_model_error(setting, entry);
+    entry.log_prior = entry.candidate->log_prior - std::log(share.at(class_of(entry))) +
+                      (in_all_alike ? setting.static_odds : kOddsOfAChange);
   }
   search.system.signatures.resize(std::ssize(setting.plain.training()), std::ssize(columns));
   for (std::size_t k = 0; k < columns.size(); ++k) search.system.signatures.col(static_cast<Index>(k)) = columns[k];

@@ -22,6 +22,9 @@ void collect_entries(const LawSetting& setting, LawSearch& search);
 /// Weighs nothing, something else, and every entry alone, its magnitudes summed over: the accounts, the best first.
 void screen_by_law(const LawSetting& setting, LawSearch& search, const OneLaw& law);
 
+/// Place of the first term that no other exceeds beyond rounding: a sensor turned either way about its axis shows the same.
+[[nodiscard]] Eigen::Index first_of_equals(const Eigen::VectorXd& terms);
+
 void sort_accounts(std::vector<LawAccount>& accounts);
 
 }  // namespace twindeck::diagnosis

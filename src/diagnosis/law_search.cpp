@@ -72,8 +72,7 @@ void score_at_base(const OneLaw& law, const LawSearch& search, LawAccount& accou
   if (at.lower.size() == 0) return;
   const VectorXd chi_squared = linalg::lower_solve(at.lower, law.whitened(left)).colwise().squaredNorm();
   std::vector<int> kept;
-  Index best = 0;
-  chi_squared.minCoeff(&best);
+  const Index best = first_of_equals(-chi_squared);
   for (Index k = 0; k < left.cols(); ++k)
     if (chi_squared[k] < chi_squared[best] + 2.0 * kKeptMagnitudes) kept.push_back(static_cast<int>(k));
   const double effect = std::sqrt(choices[static_cast<std::size_t>(best)].square);
@@ -85,8 +84,7 @@ void score_at_base(const OneLaw& law, const LawSearch& search, LawAccount& accou
                            classes_of(search, search.system, account, effect)};
   const LawEvidence evidence = law.scored(hypothesis, account.evidence.tau);
   if (evidence.weight.size() == 0) return;
-  Index most = 0;
-  evidence.weight.maxCoeff(&most);
+  const Index most = first_of_equals(evidence.weight);
   const Choice& chosen = choices[static_cast<std::size_t>(kept[static_cast<std::size_t>(most)])];
   account.causes.clear();
   for (std::size_t m = 0; m < account.members.size(); ++m)
@@ -105,7 +103,8 @@ bool acts_in_contrast(const LawSearch& search, const LawAccount& account, int co
   });
 }
 
-/// A set with its causes in the model, fitted from each start; the largest evidence counts.
+/// A set with its causes in the model, fitted from each start; of fits the one of the largest evidence counts, and it takes the
+/// place of what the screen found.
 void refine_by_law(const LawSetting& setting, const LawSearch& search, LawAccount& account,
                    const std::vector<VectorXd>& starts) {
   std::vector<Cause> start = search.base.causes;
@@ -145,8 +144,9 @@ void refine_by_law(const LawSetting& setting, const LawSearch& search, LawAccoun
         hypothesis.high[at] = with.causes[c].candidate->high[k] - with.causes[c].a[k];
       }
     const LawEvidence evidence = law.scored(hypothesis, tau);
-    if (!(evidence.log_evidence + account.log_prior > account.log_weight)) continue;
-    account.log_weight = evidence.log_evidence + account.log_prior;
+    const double weight = evidence.log_evidence + account.log_prior;
+    if (evidence.weight.size() == 0 || (account.refined() && !(weight > account.log_weight))) continue;
+    account.log_weight = weight;
     account.evidence = evidence;
     account.hypothesis = std::move(hypothesis);
     account.effect = effect;
@@ -204,9 +204,8 @@ std::vector<LawAccount> sets_beside(const LawSetting& setting, const LawSearch& 
     const auto entry =
         std::find_if(search.entries.begin(), search.entries.end(), [&](const LawEntry& e) { return e.candidate == candidate; });
     const auto position = static_cast<int>(entry - search.entries.begin());
-    if (entry == search.entries.end() ||
-        std::find(leader.members.begin(), leader.members.end(), position) != leader.members.end())
-      continue;
+    const auto is_known = [&](int m) { return is_same_cause(search.entries[static_cast<std::size_t>(m)], *entry); };
+    if (entry == search.entries.end() || std::any_of(leader.members.begin(), leader.members.end(), is_known)) continue;
     LawAccount set;
     set.members = leader.members;
     set.members.push_back(position);
@@ -279,6 +278,14 @@ std::vector<LawAccount*> leading_accounts(LawSearch& search, const std::set<int>
 }
 
 }  // namespace
+
+bool is_same_cause(const LawEntry& a, const LawEntry& b) {
+  return a.candidate->hypothesis == b.candidate->hypothesis && a.candidate->location == b.candidate->location;
+}
+
+bool is_model_error(const LawSetting& setting, const LawEntry& entry) {
+  return entry.contrast < 0 && !is_of_a_channel(*entry.candidate) && states_of(setting.plain.map().features()).size() > 1;
+}
 
 double left_of_change(const LawSearch& search, const LawAccount& account) {
   double most = 0.0;

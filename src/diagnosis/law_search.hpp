@@ -31,6 +31,10 @@ struct LawEntry {
   Eigen::Index first_signature = 0;     ///< column of the base's signatures that belongs to the first of them
 };
 
+/// Whether two entries are one cause in different states. What acts in several is an error of the model in all, or acts from
+/// one state on, and has entries of its own: never two changes.
+[[nodiscard]] bool is_same_cause(const LawEntry& a, const LawEntry& b);
+
 /// A set of causes that act together, one or more.
 struct LawAccount {
   std::vector<int> members;  ///< positions among the entries
@@ -55,6 +59,8 @@ struct LawSearch {
   std::vector<double> else_weight;          ///< ln evidence, prior odds 1
   std::vector<LawEntry> entries;
   std::vector<LawAccount> accounts;  ///< the best first
+  /// Those of causes that act in all states alike, where the question is what changed between states: errors of the model.
+  std::vector<LawAccount> model_errors;
 };
 
 /// Most that an account may leave of what changed, RMS: one that leaves more is at most a part of it.
@@ -63,6 +69,9 @@ constexpr double kMostLeft = 1.0 / 3.0;
 [[nodiscard]] double left_of_change(const LawSearch& search, const LawAccount& account);
 
 [[nodiscard]] LawSearch search_by_law(const LawSetting& setting, const Fit& base);
+
+/// Whether the question is what changed between states, and an entry acts in all of them alike.
+[[nodiscard]] bool is_model_error(const LawSetting& setting, const LawEntry& entry);
 
 /// Whether something is wrong with a channel, so that it shows in all modes.
 [[nodiscard]] bool is_of_a_channel(const Candidate& candidate);

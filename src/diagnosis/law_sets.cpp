@@ -62,6 +62,12 @@ class SetScreen {
   }
   [[nodiscard]] std::size_t size() const { return members_.size(); }
   [[nodiscard]] int entry(std::size_t local) const { return members_[local]; }
+  [[nodiscard]] bool is_same_cause(std::size_t a, std::size_t b) const {
+    const auto of = [&](std::size_t local) -> const LawEntry& {
+      return search_.entries[static_cast<std::size_t>(members_[local])];
+    };
+    return diagnosis::is_same_cause(of(a), of(b));
+  }
 
   /// ln likelihood of a set over that of no cause, magnitudes summed over, prior included, at the best of the scales.
   [[nodiscard]] double promise(const std::vector<std::size_t>& set) const {
@@ -128,7 +134,7 @@ std::vector<Promising> larger_sets(const SetScreen& screen, const std::vector<Pr
   for (const Promising& from : smaller)
     for (std::size_t m = 0; m < screen.size(); ++m) {
       std::vector<std::size_t> set = from.set;
-      if (std::find(set.begin(), set.end(), m) != set.end()) continue;
+      if (std::any_of(set.begin(), set.end(), [&](std::size_t other) { return screen.is_same_cause(m, other); })) continue;
       set.push_back(m);
       std::sort(set.begin(), set.end());
       sets.insert(std::move(set));

@@ -93,6 +93,23 @@ std::optional<Finding> leave_out_unpaired(double least_mac, const ScatterOptions
   return found;
 }
 
+std::optional<Finding> leave_out_imaginary(const ReducedModel& model, FeatureSet& features) {
+  if (model.sets.contains("dampers")) return std::nullopt;
+  std::vector<Eigen::Index> kept;
+  for (std::size_t r = 0; r < features.rows.size(); ++r)
+    if (features.rows[r].type != RowType::shape_imag) kept.push_back(static_cast<Eigen::Index>(r));
+  const std::size_t dropped = features.rows.size() - kept.size();
+  if (dropped == 0 || kept.empty()) return std::nullopt;
+  keep(features, kept);
+  return Finding{"imaginary",
+                 fmt::format("{} imaginary parts of shapes are left out: the model has no damper that could turn a shape "
+                             "complex, so they tell errors of identification, most of modes that lie close",
+                             dropped),
+                 {},
+                 {},
+                 ""};
+}
+
 bool has_rows_of_modes(const FeatureSet& features) {
   return std::any_of(features.rows.begin(), features.rows.end(), [](const Row& row) { return !is_static(row.type); });
 }

@@ -28,6 +28,10 @@ void choose_rows(const RowChoice& choice, FeatureSet& features);
 [[nodiscard]] std::optional<Finding> leave_out_unpaired(double least_mac, const ScatterOptions& scatter,
                                                         const ReducedModel& model, FeatureSet& features);
 
+/// Leaves out the imaginary parts of shapes where the model has no damper: no cause of the catalogue could make them, and those
+/// of close modes are far beyond their deviations. @return what was left out, if anything
+[[nodiscard]] std::optional<Finding> leave_out_imaginary(const ReducedModel& model, FeatureSet& features);
+
 /// Whether there are rows of modes. The error of a model's form is one of modes: load tests alone have none, and a part of the
 /// covariance instead.
 [[nodiscard]] bool has_rows_of_modes(const FeatureSet& features);

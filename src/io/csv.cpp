@@ -5,13 +5,13 @@
 #include <charconv>
 #include <cmath>
 #include <fstream>
-#include <iterator>
 #include <set>
 
 #include "core/error.hpp"
 #include "core/units.hpp"
 #include "io/atomic.hpp"
-#include "io/regular_file.hpp"
+#include "io/spreadsheet.hpp"
+#include "io/text_lines.hpp"
 
 namespace twindeck::io {
 namespace {
@@ -23,13 +23,10 @@ std::string trimmed(const std::string& text) {
 }
 
 /// Cuts the text of a file into records by RFC 4180: quoted cells may hold commas, line ends and doubled quotes. Blanks around
-/// an unquoted cell are dropped (hand-written tables have them), blank lines are skipped, a byte order mark and CRLF are
-/// tolerated.
+/// an unquoted cell are dropped (hand-written tables have them), blank lines are skipped, CRLF is tolerated.
 class RecordReader {
  public:
-  RecordReader(std::string text, std::string file) : text_(std::move(text)), file_(std::move(file)) {
-    if (text_.starts_with("\xEF\xBB\xBF")) at_ = 3;
-  }
+  RecordReader(std::string text, std::string file) : text_(std::move(text)), file_(std::move(file)) {}
 
   /// @return false at the end of the file
   bool next(std::vector<std::string>& cells, long& line) {
@@ -93,16 +90,6 @@ class RecordReader {
   long line_ = 1;
 };
 
-std::string read_whole(const std::filesystem::path& file) {
-  // A pipe is refused before it is opened, which would wait for a writer.
-  if (std::filesystem::exists(file) && !std::filesystem::is_directory(file)) require_regular_file(file);
-  std::ifstream in(file, std::ios::binary);
-  if (!in || std::filesystem::is_directory(file)) {
-    throw InputError({file.string(), 0, ""}, "cannot be opened", "check the path and that the file is readable");
-  }
-  return {std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
-}
-
 std::string joined(const std::vector<std::string>& names) { return fmt::format("{}", fmt::join(names, ",")); }
 
 std::string quoted_where_needed(const std::string& cell, bool only_cell) {
@@ -119,11 +106,12 @@ std::string quoted_where_needed(const std::string& cell, bool only_cell) {
 
 }  // namespace
 
-CsvTable CsvTable::read(const std::filesystem::path& file, const std::vector<std::string>& required,
+CsvTable CsvTable::read(const std::filesystem::path& asked, const std::vector<std::string>& required,
                         const std::vector<std::string>& optional, bool allow_other) {
   CsvTable table;
+  const std::filesystem::path file = table_file(asked);
   table.file_ = file;
-  RecordReader reader(read_whole(file), file.string());
+  RecordReader reader(text_of_file(file), file.string());
   long line = 1;
   if (!reader.next(table.columns_, line)) {
     throw InputError({file.string(), 1, ""}, "is empty, expected a header row", "start the file with: " + joined(required));

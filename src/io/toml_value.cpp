@@ -4,9 +4,8 @@
 #include <toml++/toml.h>
 
 #include <cmath>
-#include <fstream>
-#include <iterator>
 
+#include "io/text_lines.hpp"
 #include "io/toml_nesting.hpp"
 
 namespace twindeck::io {
@@ -58,9 +57,7 @@ TomlValue::Table read_toml(const std::filesystem::path& file) {
   if (!std::filesystem::is_regular_file(file)) {
     throw InputError({file.string(), 0, ""}, "cannot be opened", "check the path of the configuration");
   }
-  std::ifstream stream(file, std::ios::binary);
-  if (!stream) throw InputError({file.string(), 0, ""}, "cannot be opened", "check that you may read it");
-  const std::string text{std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
+  const std::string text = text_of_file(file);
   refuse_deep_nesting(text, {file.string(), 0, ""});
   try {
     return converted_table(toml::parse(text, file.string()));

@@ -20,6 +20,7 @@ void dgesdd_(const char* jobz, const int* m, const int* n, double* a, const int*
 void dtrsm_(const char* side, const char* uplo, const char* trans_a, const char* diag, const int* m, const int* n,
             const double* alpha, const double* a, const int* lda, double* b, const int* ldb);
 void dpotrf_(const char* uplo, const int* n, double* a, const int* lda, int* info);
+void dpotri_(const char* uplo, const int* n, double* a, const int* lda, int* info);
 void zgesv_(const int* n, const int* nrhs, std::complex<double>* a, const int* lda, int* pivot, std::complex<double>* b,
             const int* ldb, int* info);
 void dgesv_(const int* n, const int* nrhs, double* a, const int* lda, int* pivot, double* b, const int* ldb, int* info);
@@ -157,6 +158,16 @@ Eigen::MatrixXd lower_solve(const Eigen::Ref<const Eigen::MatrixXd>& lower, Eige
   const double one = 1.0;
   dtrsm_("L", "L", transposed ? "T" : "N", "N", &m, &n, &one, lower.data(), &lda, b.data(), &m);
   return b;
+}
+
+Eigen::MatrixXd inverse_of_factored(Eigen::MatrixXd lower) {
+  use_one_thread();
+  const int size = as_int(lower.rows());
+  int info = 0;
+  if (size > 0) dpotri_("L", &size, lower.data(), &size, &info);
+  TWINDECK_ASSERT(info == 0);
+  lower.triangularView<Eigen::StrictlyUpper>() = lower.transpose();
+  return lower;
 }
 
 Eigen::MatrixXcd solve(Eigen::MatrixXcd a, Eigen::MatrixXcd b) { return solved_by(zgesv_, std::move(a), std::move(b)); }

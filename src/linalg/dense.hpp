@@ -44,6 +44,9 @@ struct ThinSvd {
 [[nodiscard]] Eigen::MatrixXd lower_solve(const Eigen::Ref<const Eigen::MatrixXd>& lower, Eigen::MatrixXd b,
                                           bool transposed = false);
 
+/// A⁻¹ of a symmetric matrix A = L Lᵀ, both triangles, of its lower Cholesky factor L.
+[[nodiscard]] Eigen::MatrixXd inverse_of_factored(Eigen::MatrixXd lower);
+
 /// A⁻¹ B of complex or real matrices by Gaussian elimination with row exchanges. The result is not finite if A is exactly
 /// singular.
 /// @param a (n × n) @param b (n × columns)

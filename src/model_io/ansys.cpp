@@ -2,9 +2,9 @@
 
 #include <fmt/format.h>
 
-#include <fstream>
 #include <map>
 
+#include "io/text_lines.hpp"
 #include "model_io/ansys_blocks.hpp"
 #include "model_io/ansys_generate.hpp"
 #include "model_io/ansys_ignored.hpp"
@@ -207,9 +207,9 @@ void read_commands(Parts& parts) {
 
 bool is_ansys_deck(const std::filesystem::path& file) {
   constexpr int most_lines = 5000;  // of comments and settings before the mesh
-  std::ifstream stream(file);
+  io::TextLines stream(file, io::longest_text);
   std::string text;
-  for (int i = 0; i < most_lines && std::getline(stream, text); ++i) {
+  for (int i = 0; i < most_lines && stream.next(text); ++i) {
     for (const ansys::Command& command : ansys::split_commands(text, &file, i + 1)) {
       const std::string& key = command.key;
       if (key == "NBLO" || key == "EBLO" || key == "ETBL" || key == "/PREP" ||

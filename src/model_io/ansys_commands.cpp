@@ -2,9 +2,9 @@
 
 #include <algorithm>
 #include <cctype>
-#include <fstream>
 
 #include "core/error.hpp"
+#include "io/text_lines.hpp"
 
 namespace twindeck::model_io::ansys {
 namespace {
@@ -103,9 +103,10 @@ std::vector<Command> split_commands(const std::string& text, const std::filesyst
 
 Deck::Deck(const std::filesystem::path& file, const std::map<std::string, double>& parameters)
     : file_(file), parameters_(parameters) {
-  std::ifstream stream(file);
-  if (!stream) throw InputError({file.string(), 0, ""}, "cannot be opened", "give the path of an archive or deck of ANSYS");
-  for (std::string text; std::getline(stream, text);) lines_.push_back(text);
+  io::TextLines stream(file, io::longest_text);
+  if (!stream.opened())
+    throw InputError({file.string(), 0, ""}, "cannot be opened", "give the path of an archive or deck of ANSYS");
+  for (std::string text; stream.next(text);) lines_.push_back(text);
 }
 
 bool Deck::next(Command& command) {

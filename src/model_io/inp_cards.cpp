@@ -4,9 +4,10 @@
 
 #include <algorithm>
 #include <cctype>
-#include <fstream>
+#include <set>
 
 #include "core/error.hpp"
+#include "io/text_lines.hpp"
 
 namespace twindeck::model_io {
 namespace {
@@ -17,6 +18,8 @@ std::vector<std::string> split_line(const std::string& text) {
   return fields;
 }
 
+constexpr std::size_t longest_keyword = 32;  ///< letters: messages say no more of what need not be a deck
+
 InpCard to_card(const std::string& text, const std::filesystem::path& file, long line) {
   InpCard card;
   const std::vector<std::string> fields = split_line(text.substr(1));
@@ -24,7 +27,7 @@ InpCard to_card(const std::string& text, const std::filesystem::path& file, long
   for (const char c : upper_case(fields.front())) {
     if (c != ' ' || (!card.keyword.empty() && card.keyword.back() != ' ')) card.keyword += c;
   }
-  static_cast<DeckPlace&>(card) = {&file, line, "*" + card.keyword};
+  static_cast<DeckPlace&>(card) = {&file, line, "*" + card.keyword.substr(0, longest_keyword)};
   for (std::size_t i = 1; i < fields.size(); ++i) {
     const auto equals = fields[i].find('=');
     std::string value = equals == std::string::npos ? "" : trimmed(fields[i].substr(equals + 1));
@@ -38,6 +41,12 @@ InpCard to_card(const std::string& text, const std::filesystem::path& file, long
 /// with a comma that means nothing; what follows is a card of its own or data then.
 bool continues_a_card(const std::string& line) { return std::isalpha(static_cast<unsigned char>(line.front())) != 0; }
 
+bool takes_no_data(const std::string& keyword) {
+  static const std::set<std::string> bare = {"ASSEMBLY", "COUPLING", "END ASSEMBLY", "END INSTANCE", "END PART",
+                                             "END STEP", "MATERIAL", "PART",         "RIGID BODY"};
+  return bare.contains(keyword);
+}
+
 }  // namespace
 
 std::string InpCard::get(const std::string& name, const std::string& fallback) const {
@@ -49,12 +58,12 @@ InpFile InpFile::read(const std::filesystem::path& file) {
   InpFile result;
   result.files_.push_back(file);
   const std::filesystem::path& path = result.path();
-  std::ifstream stream(file);
-  if (!stream) throw InputError({file.string(), 0, ""}, "cannot be opened", "give the path of an .inp file");
+  io::TextLines stream(file, io::longest_text);
+  if (!stream.opened()) throw InputError({file.string(), 0, ""}, "cannot be opened", "give the path of an .inp file");
   std::string text, pending;
-  long first = 0, number = 0;
-  while (std::getline(stream, text)) {
-    ++number;
+  long first = 0;
+  while (stream.next(text)) {
+    const long number = stream.number();
     const std::string line = trimmed(text);
     if (line.empty() || line.starts_with("**")) continue;
     if (pending.starts_with('*') && !continues_a_card(line)) {
@@ -70,12 +79,17 @@ InpFile InpFile::read(const std::filesystem::path& file) {
       throw InputError({file.string(), number, ""}, "data stand before the first card", "begin the file with *HEADING");
     } else {
       InpCard& card = result.cards_.back();
+      if (takes_no_data(card.keyword)) {
+        throw InputError({file.string(), first, card.label}, "a data line stands under this card, which takes none",
+                         "take the line out, or write the card that it belongs to above it");
+      }
       card.data.push_back({{&path, first, card.label}, card.keyword == "HEADING" ? std::vector{line} : split_line(pending)});
     }
     pending.clear();
   }
   if (!pending.empty()) {
-    throw InputError({file.string(), number, ""}, "the file ends within a line that a comma continues", "complete the line");
+    throw InputError({file.string(), stream.number() - 1, ""}, "the file ends within a line that a comma continues",
+                     "complete the line");
   }
   return result;
 }

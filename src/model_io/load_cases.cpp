@@ -6,6 +6,7 @@
 
 #include "core/error.hpp"
 #include "io/csv.hpp"
+#include "io/spreadsheet.hpp"
 #include "model_io/names.hpp"
 
 namespace twindeck::model_io {
@@ -35,7 +36,7 @@ void refuse_repeated(const io::CsvTable& table, std::size_t row, const LoadEntry
 
 std::vector<LoadEntry> read_load_cases(const std::filesystem::path& folder) {
   static const std::vector<std::string> units = {"N", "N m", "m"};  // in the order of LoadEntry::Kind
-  if (!std::filesystem::exists(folder / kFile)) return {};
+  if (!io::has_table(folder / kFile)) return {};
   const auto table = io::CsvTable::read(folder / kFile, {"load", "node", "direction", "value", "unit"});
   std::vector<LoadEntry> entries;
   for (std::size_t row = 0; row < table.rows(); ++row) {

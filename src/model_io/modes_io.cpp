@@ -8,6 +8,7 @@
 
 #include "core/error.hpp"
 #include "io/csv.hpp"
+#include "io/spreadsheet.hpp"
 #include "linalg/canonical_basis.hpp"
 #include "matching/mode_name.hpp"
 #include "model_io/names.hpp"
@@ -154,7 +155,7 @@ modal::ModeSet read_modes(const std::filesystem::path& folder, std::vector<long>
                  "a mode that vibrates is damped less than critically; give the ratio in per cent");
     modes.damping_ratio_std[i] = table.number_or(row, "damping_ratio_std_pct", kUnknown) / 100.0;
   }
-  if (std::filesystem::exists(folder / "shapes.csv")) read_shapes(folder / "shapes.csv", left_out, modes);
+  if (io::has_table(folder / "shapes.csv")) read_shapes(folder / "shapes.csv", left_out, modes);
   return modes;
 }
 

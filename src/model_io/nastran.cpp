@@ -4,10 +4,10 @@
 
 #include <algorithm>
 #include <array>
-#include <fstream>
 #include <map>
 
 #include "core/error.hpp"
+#include "io/text_lines.hpp"
 #include "model_io/deck_units.hpp"
 #include "model_io/model_toml.hpp"
 #include "model_io/nastran_constraints.hpp"
@@ -139,9 +139,9 @@ bool is_nastran_file(const std::filesystem::path& file) {
   const std::string ending = upper_case(file.extension().string());
   if (ending == ".BDF" || ending == ".NAS" || ending == ".BLK") return true;
   if (ending != ".DAT" || !std::filesystem::is_regular_file(file)) return false;
-  std::ifstream stream(file);
+  io::TextLines stream(file, io::longest_text);
   std::string line;
-  while (std::getline(stream, line)) {
+  while (stream.next(line)) {
     const std::string word = upper_case(line.substr(0, 10));
     if (word.starts_with("BEGIN BULK") || word.starts_with("GRID ") || word.starts_with("GRID,") || word.starts_with("GRID*"))
       return true;

@@ -1,9 +1,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <fstream>
 
 #include "core/error.hpp"
+#include "io/text_lines.hpp"
 #include "model_io/nastran_cards.hpp"
 
 /// From the text of a deck and its INCLUDE files to cards: the part of Deck that knows columns.
@@ -91,13 +91,13 @@ struct DeckReader {
 
   /// The text of a file into `lines`, INCLUDE lines replaced by the lines of their files.
   void expand(const std::filesystem::path& path) {
-    std::ifstream stream(path);
-    if (!std::filesystem::is_regular_file(path) || !stream)
+    io::TextLines stream(path, io::longest_text);
+    if (!std::filesystem::is_regular_file(path) || !stream.opened())
       throw InputError({path.string(), 0, ""}, "cannot be opened", "give the path of a Nastran deck");
     const std::filesystem::path* file = &deck.files_.emplace_back(path);
     open.push_back(std::filesystem::weakly_canonical(path));
     RawLine line{{file, 0, ""}, ""};
-    while (std::getline(stream, line.text)) {
+    while (stream.next(line.text)) {
       ++line.line;
       const std::string bare = trimmed(without_comment(line.text));
       if (bare.empty()) continue;
@@ -111,7 +111,7 @@ struct DeckReader {
       const char quote = name.empty() ? ' ' : name.front();
       if (quote == '\'' || quote == '"') {
         // A long path may go on over several lines, up to the closing quote.
-        while (name.find(quote, 1) == std::string::npos && std::getline(stream, line.text)) {
+        while (name.find(quote, 1) == std::string::npos && stream.next(line.text)) {
           ++line.line;
           name += trimmed(line.text);
         }

@@ -5,13 +5,14 @@
 #include <algorithm>
 
 #include "core/error.hpp"
+#include "io/spreadsheet.hpp"
 #include "model_io/names.hpp"
 
 namespace twindeck::model_io {
 namespace {
 
 /// What hangs on the elements may be left out altogether.
-bool is_there(const std::filesystem::path& folder, const char* file) { return std::filesystem::exists(folder / file); }
+bool is_there(const std::filesystem::path& folder, const char* file) { return io::has_table(folder / file); }
 
 bool read_flag(const io::CsvTable& table, std::size_t row, const std::string& column, bool fallback) {
   const auto value = table.integer_if(row, column);

@@ -1,7 +1,8 @@
 #include "model_io/sap2000_tables.hpp"
 
 #include <algorithm>
-#include <fstream>
+
+#include "io/text_lines.hpp"
 
 namespace twindeck::model_io {
 namespace {
@@ -46,12 +47,12 @@ bool SapRow::yes(const std::string& key) const { return word(position(key)) == "
 
 SapTables::SapTables(const std::filesystem::path& file) {
   files_.push_back(file);
-  std::ifstream stream(file);
-  if (!stream) whole("").fail("cannot be opened", "give the path of an .s2k file");
+  io::TextLines stream(file, io::longest_text);
+  if (!stream.opened()) whole("").fail("cannot be opened", "give the path of an .s2k file");
   std::vector<SapRow>* open = nullptr;
   std::string text, label;
   bool goes_on = false;
-  for (long number = 1; std::getline(stream, text); ++number) {
+  for (long number = 1; stream.next(text); ++number) {
     std::string line = trimmed(text);
     if (line.starts_with("TABLE:")) {
       const std::size_t quote = line.find('"'), end = line.find('"', quote + 1);

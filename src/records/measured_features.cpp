@@ -8,6 +8,7 @@
 
 #include "core/error.hpp"
 #include "io/csv.hpp"
+#include "io/spreadsheet.hpp"
 #include "matching/mode_name.hpp"
 #include "records/feature_rows.hpp"
 
@@ -127,7 +128,7 @@ matching::Measured read_measured_features(const std::filesystem::path& folder, c
   const std::vector<MeasuredCondition> conditions = read_conditions(conditions_file);
   const std::string chosen = choose_condition(conditions_file, conditions, choice.conditions);
   std::vector<matching::Channel> channels;
-  if (std::filesystem::exists(folder / "channels.csv")) channels = read_channels(folder / "channels.csv");
+  if (io::has_table(folder / "channels.csv")) channels = read_channels(folder / "channels.csv");
   FeatureRows read = read_feature_rows(folder, conditions, channels);
   refuse_unknown_channels(choice.corrections, names_of(channels), (folder / "channels.csv").string());
   correct(choice.corrections, read);

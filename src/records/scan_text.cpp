@@ -7,10 +7,10 @@
 #include <limits>
 
 #include "core/error.hpp"
+#include "io/text_lines.hpp"
 #include "records/take_clock.hpp"
 #include "records/text_cells.hpp"
 #include "records/text_layout.hpp"
-#include "records/text_lines.hpp"
 #include "records/time_stamp.hpp"
 
 namespace twindeck::records {
@@ -178,7 +178,7 @@ RecordInfo scan_text(const fs::path& file, const Visitor& visit, const ReadOptio
   StampedRows stamps;
   Rows rows(layout, columns);
   RowParts parts(std::ssize(columns), visit);
-  TextLines in(file);
+  io::TextLines in(file);
   long stray = 0, first_stray = 0;
   for (std::string line; in.next(line);) {
     if (in.number() < layout.first_data_line) continue;

@@ -33,26 +33,6 @@ bool is_utf8(std::string_view text) {
   return true;
 }
 
-void append_utf8(std::uint32_t code, std::string& text) {
-  if (code >= 0x110000 || (code >= 0xD800 && code <= 0xDFFF)) code = '?';
-  const auto following = [&](unsigned shift) { text += static_cast<char>(0x80U | (code >> shift & 0x3FU)); };
-  if (code < 0x80) {
-    text += static_cast<char>(code);
-  } else if (code < 0x800) {
-    text += static_cast<char>(0xC0U | code >> 6U);
-    following(0);
-  } else if (code < 0x10000) {
-    text += static_cast<char>(0xE0U | code >> 12U);
-    following(6);
-    following(0);
-  } else {
-    text += static_cast<char>(0xF0U | code >> 18U);
-    following(12);
-    following(6);
-    following(0);
-  }
-}
-
 std::string from_latin1(std::string_view text) {
   std::string result;
   for (const char c : text) append_utf8(static_cast<unsigned char>(c), result);

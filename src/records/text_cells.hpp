@@ -6,6 +6,8 @@
 #include <string_view>
 #include <vector>
 
+#include "io/text_lines.hpp"
+
 namespace twindeck::records {
 
 /// Cells of a line, blanks and quotes around them taken off; a last separator opens an empty cell.
@@ -22,8 +24,7 @@ namespace twindeck::records {
 /// Letters A to Z in lower case.
 [[nodiscard]] std::string lower(std::string_view text);
 [[nodiscard]] bool is_utf8(std::string_view text);
-/// Adds the letter of that code point in UTF-8; '?' for what is none.
-void append_utf8(std::uint32_t code, std::string& text);
+using io::append_utf8;
 /// Latin-1 as UTF-8.
 [[nodiscard]] std::string from_latin1(std::string_view text);
 

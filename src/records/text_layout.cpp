@@ -8,11 +8,11 @@
 #include <limits>
 
 #include "core/error.hpp"
+#include "io/text_lines.hpp"
 #include "records/header_rate.hpp"
 #include "records/record_clock.hpp"
 #include "records/take_clock.hpp"
 #include "records/text_cells.hpp"
-#include "records/text_lines.hpp"
 #include "records/time_stamp.hpp"
 
 namespace twindeck::records {
@@ -310,7 +310,7 @@ bool is_incomplete_row(const std::string& line, const TextLayout& layout) {
 
 /// The first lines of a file as UTF-8.
 std::vector<std::string> first_lines(const fs::path& file, TextLayout& layout) {
-  TextLines in(file);
+  io::TextLines in(file);
   std::vector<std::string> lines;
   std::size_t bytes = 0;
   layout.utf16 = in.is_utf16();

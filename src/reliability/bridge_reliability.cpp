@@ -207,9 +207,14 @@ UncertainMoments uncertain_moments(
   const aero::AeroelasticSystem system = at.system();
   const double turn = 2.0 * std::numbers::pi, frozen = response.bridge.frozen_omega;
   UncertainMoments out;
-  const aero::DerivativeFrequencies frequencies{frozen, {turn * kLowestDerivatives_Hz, turn * response.settings.cutoff_Hz}};
-  out.stable = !aero::find_growth(system, speed_m_s, frequencies);
-  if (!out.stable) return out;
+  // The spectra end at the cutoff. Derivatives of the first mode say nothing of motions above it, many times faster.
+  const double highest = turn * response.settings.cutoff_Hz;
+  const aero::DerivativeFrequencies frequencies{frozen, {turn * kLowestDerivatives_Hz, highest}, highest};
+  if (const std::optional<aero::Growth> growth = aero::find_growth(system, speed_m_s, frequencies)) {
+    out.stable = false;
+    out.growth = growth->in_words();
+    return out;
+  }
 
   const aero::Equations equations = response.settings.equation_choice();
   const MatrixXd load = buffeting::load_matrix(system, speed_m_s, equations);

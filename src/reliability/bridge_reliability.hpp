@@ -66,7 +66,8 @@ struct CriticalSpeed {
 
 /// Spectral moments of responses in a mean wind: of all rows at u = 0, of some of them as functions of u.
 struct UncertainMoments {
-  bool stable = true;                 ///< at u = 0; else nothing but this holds
+  bool stable = true;                 ///< at u = 0; else nothing but this and the next holds
+  std::string growth;                 ///< of what grows then, in words, among all modes of the response
   std::vector<SpectralMoments> mean;  ///< (n_rows) at u = 0
   std::vector<std::size_t> varied;    ///< (n_varied) the rows that the following are of
   std::vector<Eigen::VectorXd> variance_slope, rate_slope,

@@ -30,6 +30,12 @@ double Corrosion::loss_m(double years) const {
                          exponent * std::pow(kPowerLawYears, exponent - 1.0) * (exposed - kPowerLawYears));
 }
 
+double Corrosion::years_until(double loss_m) const {
+  const double power = std::pow(kPowerLawYears, exponent) * first_year_m;
+  if (loss_m <= power) return coating_life_years + std::pow(loss_m / first_year_m, 1.0 / exponent);
+  return coating_life_years + kPowerLawYears + (loss_m - power) * kPowerLawYears / (exponent * power);
+}
+
 std::optional<double> first_year_loss_m(const std::string& category) {
   static const std::map<std::string, double> middle_um = {{"C1", 0.65}, {"C2", 13.15}, {"C3", 37.5},
                                                           {"C4", 65.0}, {"C5", 140.0}, {"CX", 450.0}};

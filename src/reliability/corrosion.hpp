@@ -14,6 +14,8 @@ struct Corrosion {
   double coating_life_years = 0.0;
   /// Loss of one surface after so many years in service [m].
   [[nodiscard]] double loss_m(double years) const;
+  /// Years in service after which one surface has lost so much. @pre first_year_m > 0
+  [[nodiscard]] double years_until(double loss_m) const;
 };
 
 /// First year's loss of carbon steel in a category of atmosphere, C1 … C5 and CX: the middle of its range.

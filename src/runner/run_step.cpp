@@ -143,6 +143,28 @@ std::string describe(const Step& step, const std::string& key) {
   return step.fields.describe(key == "all" ? "" : key);
 }
 
+/// What the file system does not allow, with what helps.
+InputError in_words(const fs::filesystem_error& error) {
+  struct Refusal {
+    std::errc code;
+    const char *problem, *mend;
+  };
+  constexpr Refusal known[] = {
+      {std::errc::too_many_symbolic_link_levels, "is a link that leads back to itself",
+       "let it point to the file or folder that is meant"},
+      {std::errc::filename_too_long, "is a name that is too long for the file system", "choose a shorter one"},
+      {std::errc::too_many_files_open, "cannot be opened: this shell allows too few open files",
+       "raise the limit: ulimit -n 256"},
+      {std::errc::permission_denied, "may not be read or written", "check your permissions"},
+  };
+  constexpr std::size_t longest_name = 200;  // letters: of a name that is too long messages say no more
+  const std::string name = error.path1().string().substr(0, longest_name);
+  for (const Refusal& refusal : known) {
+    if (error.code() == refusal.code) return InputError({name, 0, ""}, refusal.problem, refusal.mend);
+  }
+  return InputError({name, 0, ""}, error.code().message(), "check the path, and what the machine allows");
+}
+
 /// The line of an InputError that names no file: a key of the configuration stands where it was given, anything else concerns
 /// the study or the model that the step was run on.
 std::string located(const InputError& error, const Step& step, const StepContext& context) {
@@ -286,6 +308,8 @@ int run_step(int argc, char** argv, Step step) {
     throw InternalError("the command line asks for nothing known");
   } catch (const InputError& error) {
     return failure(step.token, "", located(error, step, context), 2);
+  } catch (const fs::filesystem_error& error) {
+    return failure(step.token, "", located(in_words(error), step, context), 2);
   } catch (const std::system_error& error) {  // of the file system too: what the machine or its limits do not allow
     return failure(step.token, "", error.what(), 2);
   } catch (const std::bad_alloc&) {

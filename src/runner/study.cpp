@@ -1,5 +1,9 @@
 #include "runner/study.hpp"
 
+#include <fmt/format.h>
+
+#include <algorithm>
+
 #include "core/error.hpp"
 #include "io/config.hpp"
 
@@ -29,6 +33,19 @@ struct StudyFile {
   }
 };
 
+/// The steps there are (docs/method_and_limits.md).
+const std::vector<std::string> known_steps = {"s0_campaign",   "s1_model",       "s2_sensors",     "s3_identification",
+                                              "s4_refinement", "s5_sensitivity", "s6_updating",    "s7_aerodynamics",
+                                              "s8_validation", "s9_diagnosis",   "s10_reliability"};
+
+void check_steps(const std::vector<std::string>& steps, const std::filesystem::path& file) {
+  for (const std::string& step : steps) {
+    if (std::find(known_steps.begin(), known_steps.end(), step) != known_steps.end()) continue;
+    throw InputError({file.string(), 0, "steps"}, fmt::format("'{}' is no step{}", step, did_you_mean(step, known_steps)),
+                     fmt::format("the steps are {}", fmt::join(known_steps, ", ")));
+  }
+}
+
 }  // namespace
 
 std::string describe_study() { return StudyFile{}.fields().describe(); }
@@ -37,6 +54,7 @@ Study read_study(const std::filesystem::path& folder) {
   StudyFile entry;
   const std::filesystem::path path = folder / "study.toml";
   entry.fields().load(path);
+  check_steps(entry.study.steps, path);
   auto& [study, seed, file, model_folder, inp, features] = entry;
   const bool generated = !study.model_generator.empty() || !file.empty();
   const int sources = (generated ? 1 : 0) + (model_folder.empty() ? 0 : 1) + (inp.empty() ? 0 : 1);

@@ -33,7 +33,7 @@ Status run(const steps::UpdatingConfig& config, const steps::UpdatingInputs& rea
   const auto progress = [&](int done, int of) { context.progress("starts", done, of); };
   const auto update = [&](const std::vector<int>& chosen, const std::vector<Eigen::VectorXd>& elsewhere) {
     return updating::update(before.system, updating::prestress_refresh(before), chosen, targets,
-                            config.options(context.seed, elsewhere), progress, rows);
+                            config.options(context.seed, elsewhere, chosen == active), progress, rows);
   };
   const updating::UpdatingResult result = update(active, published);
   if (result.starts.empty() || result.mode_after.empty()) return result.status;

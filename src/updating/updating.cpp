@@ -231,7 +231,8 @@ UpdatingResult update(const fe::ParametricSystem& start, const Refresh& refresh,
   }
   const SearchEnd& best = ends[static_cast<std::size_t>(result.best)];
   if (options.leave_one_out && best.result.converged) result.left_out = leave_each_out(search, x0);
-  if (!options.prior) result.regularised = regularised_where_worse(result, start, refresh, active, targets, options, rows);
+  if (options.regularised && !options.prior)
+    result.regularised = regularised_where_worse(result, start, refresh, active, targets, options, rows);
   return result;
 }
 

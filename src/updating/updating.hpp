@@ -35,7 +35,8 @@ struct UpdatingOptions {
   std::uint64_t seed = 1;
   bool leave_one_out = false;              ///< afterwards each target is left out in turn and predicted (leave_one_out.hpp)
   std::vector<Eigen::VectorXd> elsewhere;  ///< (n_active each) further values at which the cost is computed
-  bool prior = false;  ///< parameters are held to their initial values by the deviations of their ranges (prior.hpp)
+  bool regularised = true;  ///< afterwards, where left-out targets are predicted worse than without an update (regularised.hpp)
+  bool prior = false;       ///< parameters are held to their initial values by the deviations of their ranges (prior.hpp)
 };
 
 /// One accepted step of a search. `theta` are the active parameters divided by their initial values (by their range where the

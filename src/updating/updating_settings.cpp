@@ -11,7 +11,7 @@ bool UpdatingSettings::weighs_shapes() const {
 
 bool UpdatingSettings::weighs() const { return weights == "covariance" || weighs_shapes(); }
 
-UpdatingOptions UpdatingSettings::options(std::uint64_t seed, std::vector<Eigen::VectorXd> elsewhere) const {
+UpdatingOptions UpdatingSettings::options(std::uint64_t seed, std::vector<Eigen::VectorXd> elsewhere, bool regularised) const {
   UpdatingOptions options;
   options.elsewhere = std::move(elsewhere);
   options.trust_radius = trust_radius;
@@ -22,6 +22,7 @@ UpdatingOptions UpdatingSettings::options(std::uint64_t seed, std::vector<Eigen:
   options.optimality_tolerance = optimality_tolerance;
   options.seed = seed;
   options.leave_one_out = leave_one_out;
+  options.regularised = regularised;
   return options;
 }
 

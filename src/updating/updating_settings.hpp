@@ -38,8 +38,9 @@ struct UpdatingSettings {
   [[nodiscard]] bool weighs_shapes() const;
   /// Whether rows are weighed by their covariance; false: relative frequencies, Eq. (5).
   [[nodiscard]] bool weighs() const;
-  /// @param elsewhere  see UpdatingOptions
-  [[nodiscard]] UpdatingOptions options(std::uint64_t seed, std::vector<Eigen::VectorXd> elsewhere = {}) const;
+  /// @param elsewhere, regularised  see UpdatingOptions
+  [[nodiscard]] UpdatingOptions options(std::uint64_t seed, std::vector<Eigen::VectorXd> elsewhere = {},
+                                        bool regularised = true) const;
 };
 
 }  // namespace twindeck::updating

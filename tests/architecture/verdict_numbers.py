@@ -15,7 +15,7 @@ PRECISION = {"kUnitOfClasses", "kUnitOfKinks", "kPerCent", "kNoVariance", "kLarg
 NAMED = re.compile(r"^\s*(?:inline |static )?const(?:expr)? (?:double|int|std::size_t|std::array<[^>]*>) (k.*?);", re.M | re.S)
 ONE = re.compile(r"(k[A-Z]\w*)(?:\[\])? = ((?:\{[^;]*\})|[^,;{]+)")
 OPTION = re.compile(r"^\s*double (\w+) = (-?[\d.]+);", re.M)
-RULE = re.compile(r"^.*(?:out_?\.)?verdict = .*Verdict::.*$", re.M)
+RULE = re.compile(r"^.*(?:out_?\.)?verdict = .*(?:Verdict::|without_a_cause).*$", re.M)
 
 
 def numbers(folder=ROOT / "src/diagnosis"):

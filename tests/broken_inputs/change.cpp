@@ -161,6 +161,12 @@ void set_element(const fs::path& file, const Words& w) {
   io::write_npy(matrix, file);
 }
 
+std::string in_utf16(const std::string& text) {
+  std::string result = "\xFF\xFE";
+  for (const char letter : text) (result += letter) += '\0';
+  return result;
+}
+
 /// What changes a file's bytes; the words are the command's.
 using Edit = std::function<std::string(const std::string& text, const Words& w)>;
 
@@ -178,6 +184,7 @@ const std::map<std::string, std::pair<std::size_t, Edit>>& edits() {
       {"replace", {4, [](const auto& t, const auto& w) { return replaced(t, w[2], w[3], false); }}},
       {"replace_all", {4, [](const auto& t, const auto& w) { return replaced(t, w[2], w[3], true); }}},
       {"cut", {3, [](const auto& t, const auto& w) { return t.substr(0, offset(t, w[2])); }}},
+      {"utf16", {2, [](const auto& t, const auto&) { return in_utf16(t); }}},
       {"bytes", {4, [](const auto& t, const auto& w) { return overwritten(t, w[2], w[3]); }}}};
   return known;
 }

@@ -20,6 +20,7 @@ namespace twindeck::broken {
 ///     replace FILE BEFORE AFTER     the first place that reads BEFORE
 ///     replace_all FILE BEFORE AFTER every place
 ///     cut FILE BYTES                keeps so many bytes; -N drops the last N
+///     utf16 FILE                    its ASCII letters as UTF-16 with a mark
 ///     bytes FILE OFFSET TEXT        overwrites bytes; -N counts from the end
 ///     write FILE TEXT               a file of this text and no other
 ///     delete FILE                   a file or folder goes
@@ -28,8 +29,9 @@ namespace twindeck::broken {
 ///     pipe FILE                     a named pipe that nobody writes to
 ///     copy FILE TO                  a second file or folder of the same content
 ///     record FILE FORMAT            the sound record (made_record.hpp) in csv, npy, mat4, mat5, mat5z, mat73, hdf5, uff,
-///     uffb … covariance FILE ROWS STD      an NPY matrix: STD squared on the diagonal element FILE ROW COLUMN VALUE an element
-///     of an NPY matrix of float64 in C order
+///                                   uffb …
+///     covariance FILE ROWS STD      an NPY matrix: STD squared on the diagonal
+///     element FILE ROW COLUMN VALUE an element of an NPY matrix of float64 in C order
 ///
 /// @throws std::runtime_error  for a change that cannot be made or changes nothing: a case must not pass because it did nothing
 void apply_change(const std::filesystem::path& folder, const std::string& change);

@@ -8,8 +8,9 @@ import numpy as np
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "paper"))
 
-from twindeck_report.figures import figures_of, fragility, reliability_years  # noqa: E402
+from twindeck_report.figures import figures_of, fragility, reliability_years, visible_loss  # noqa: E402
 from twindeck_report.figures.style import plt  # noqa: E402
+from twindeck_report.page.reliability import reliability  # noqa: E402
 from twindeck_report.study import Study  # noqa: E402
 
 FRAGILITY = """limit_state,model,years,dampers,fault,speed_m_s,probability,low,high
@@ -35,6 +36,12 @@ YEARS = """years,dampers,fault,quantity,place,value,low,high,unit
 0,off,,frequency,mode 1,2.0,1.9,2.1,Hz
 50,off,,frequency,mode 1,1.9,1.8,2.0,Hz
 """
+VISIBLE = """wall,section,wall_thickness_m,smallest_loss_m,share_pct,years,located_loss_m,distance,mode,change_pct
+1,edge,0.01,0.0005,5,30,0.002,3.29,1X,-0.5
+2,mast,0.02,,,,,1.1,1X,-0.1
+"""
+NODES = "node,x_m,y_m,z_m\n1,0,0,0\n2,10,0,0\n3,5,4,0\n4,5,4,9\n"
+ELEMENTS = "element,group,section,node1,node2,node3,node4\n1,deck_edge,edge,1,2,,\n2,mast,mast,3,4,,\n"
 
 
 class ReliabilityFigures(unittest.TestCase):
@@ -44,6 +51,7 @@ class ReliabilityFigures(unittest.TestCase):
         step.mkdir(parents=True)
         for name, text in (("fragility", FRAGILITY), ("critical", CRITICAL), ("importance", IMPORTANCE), ("years", YEARS)):
             (step / f"{name}.csv").write_text(text)
+        self.step = step
         (folder / "workflows/mine").mkdir(parents=True)
         (folder / "workflows/mine/study.toml").write_text('steps = ["s10_reliability"]\n')
         self.study = Study("mine", folder / "results/mine", folder / "data/mine", folder / "workflows/mine")
@@ -51,8 +59,43 @@ class ReliabilityFigures(unittest.TestCase):
     def tearDown(self):
         plt.close("all")
 
-    def test_a_study_with_the_step_has_both_figures(self):
+    def walls(self):
+        (self.step / "visible.csv").write_text(VISIBLE)
+        model = self.step.parent / "s6_updating/model"
+        model.mkdir(parents=True)
+        (model / "nodes.csv").write_text(NODES)
+        (model / "elements.csv").write_text(ELEMENTS)
+
+    def test_a_study_with_the_step_has_both_figures_and_with_walls_the_third(self):
         self.assertEqual({figure.NAME for figure in figures_of(self.study)}, {"fragility", "reliability_years"})
+        self.walls()
+        self.assertEqual({figure.NAME for figure in figures_of(self.study)}, {"fragility", "reliability_years", "visible_loss"})
+
+    def test_visible_loss_holds_bars_in_mm_and_colours_members(self):
+        self.walls()
+        figure, _ = visible_loss.draw(self.study)
+        plan, bars = figure.axes[:2]
+        self.assertEqual([round(bar.get_width(), 9) for bar in bars.patches], [0.5, 2.0, 20.0])  # seen, located, not seen
+        self.assertEqual([text.get_text() for text in bars.texts], ["year 30", "not seen"])
+        edge, mast, upright = plan.lines[1:]
+        self.assertEqual(list(edge.get_xdata()[:2]), [0, 10])
+        self.assertEqual(edge.get_color(), visible_loss.COLOURS(1.0))
+        self.assertEqual((mast.get_color(), list(upright.get_xydata()[0])), (visible_loss.UNSEEN, [5, 4]))
+
+    def test_the_page_answers_its_question_first(self):
+        self.walls()
+        told = reliability(self.study)
+        self.assertIn("after 50 years?", told["question"])
+        vertical, stability, visible = told["answers"]
+        self.assertIn("15.0 m/s without dampers, year 0", vertical)  # half way from 0.2 at 10 to 0.8 at 20 m/s
+        self.assertIn("below 20 m/s without dampers, year 50", vertical)
+        self.assertIn("24.0 m/s (22.0 to 26.0) without dampers, year 0", stability)
+        self.assertIn("none found with dampers, C1 held, year 0", stability)
+        self.assertIn("edge: from a loss of 0.50 mm (5 % of the wall) on, in year 30", visible)
+        self.assertIn("1 of 2 walls", visible)
+        self.assertEqual([table["title"] for table in told["tables"]][-1], "What monitoring would see")
+        (self.study.workflow / "study.toml").write_text('steps = ["s1_model"]\n')
+        self.assertIsNone(reliability(self.study))
 
     def test_fragility_holds_probabilities_bands_and_the_median_of_the_critical_speed(self):
         figure, data = fragility.draw(self.study)

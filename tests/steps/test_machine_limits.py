@@ -55,6 +55,11 @@ class Limits(unittest.TestCase):
         for size in ("16k", "1"):
             self.assertEqual(self.run_step("s6_updating", "", "--threads 2", OMP_STACKSIZE=size).returncode, 0)
 
+    def test_a_name_that_is_too_long(self):
+        for model, out in ((300 * "a", "out/x"), ("model", 300 * "a")):
+            done = subprocess.run([BIN / "s1_model", "--model", model, "--out", out], cwd=self.folder, capture_output=True, text=True)
+            self.refused(done, "too long for the file system")
+
     def test_a_limit_of_the_size_of_files(self):
         self.refused(self.run_step("s1_model", "ulimit -f 1", "--quiet"), "cannot be written")
 

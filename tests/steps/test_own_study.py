@@ -28,7 +28,7 @@ class OwnStudy(unittest.TestCase):
         cls.holder = tempfile.TemporaryDirectory()
         cls.addClassCleanup(cls.holder.cleanup)
         cls.root = pathlib.Path(cls.holder.name)
-        for part in ("workflows", "paper", "data/template"):
+        for part in ("workflows", "paper", "data/template", "data/wind"):
             shutil.copytree(ROOT / part, cls.root / part, ignore=shutil.ignore_patterns("__pycache__"))
         shutil.copy(ROOT / "Makefile", cls.root / "Makefile")
         cls.new = cls.make("new", "STUDY=mine")
@@ -97,6 +97,32 @@ class OwnStudy(unittest.TestCase):
         self.assertRegex(first, r"What updating did Mean error of 4 frequencies: 6\.9\d % before, 0\.0\d % after\. Changed: k_base -4\d\.\d %, m_floor \+9\.\d %\.")
         self.assertNotRegex(words, r"the paper|Eq\.|[Ss]ection \d|Fig\. ?\d|[Pp]ublished|not run|preliminary", "nothing of the paper")
         self.assertNotIn("template", (self.root / "workflows/mine/study.toml").read_text().replace("the template", ""))
+
+    def test_the_girder_runs_untouched_to_a_fragility_curve(self):
+        self.assertFalse((self.root / "data/mine/girder").exists() or (self.root / "workflows/mine/girder").exists())
+        self.assertEqual(self.make("new", "STUDY=other", "TEMPLATE=gider").returncode, 2)
+        self.assertEqual(self.make("new", "STUDY=bridge", "TEMPLATE=girder").returncode, 0)
+        done = self.make("all", "STUDY=bridge")
+        self.assertEqual(done.returncode, 0, done.stderr)
+
+        def rows(name):
+            with open(self.root / "results/bridge" / name, newline="") as stream:
+                return list(csv.DictReader(stream))
+
+        # Galloping of the first mode: V = 4 m omega xi/(rho B |C_L' + C_D|), with the mass of 1 m after updating; the polar's moment is left out.
+        critical = rows("s7_aerodynamics/critical.csv")[0]
+        surfacing = float(rows("s6_updating/parameters.csv")[0]["final_value"])
+        mass = 7850 * (2 * 0.0402 + 0.012 * 3.0 * 19 / 45) + 500 * surfacing
+        closed = 4 * mass * 2 * 3.14159265 * float(critical["f_cr_Hz"]) * 0.006 / (1.25 * 3.6 * abs(-2.2 + 0.35))
+        self.assertAlmostEqual(float(critical["V_cr_m_s"]) / closed, 1.0, delta=0.03)
+        curve = [float(r["probability"]) for r in rows("s10_reliability/fragility.csv") if r["limit_state"] == "comfort_vertical" and float(r["years"]) == 0]
+        self.assertEqual(curve, sorted(curve))
+        self.assertLess(curve[0], 1e-6)
+        self.assertGreater(curve[-1], 0.9)
+        self.assertGreater(float(rows("s10_reliability/visible.csv")[0]["smallest_loss_m"]), 0.0)
+        page = (self.root / "results/bridge/report/report.html").read_text(encoding="utf-8")
+        for part in ('<section id="reliability">', "In which wind does the bridge become uncomfortable", "What monitoring would see", "Critical speed, with its"):
+            self.assertIn(part, page)
 
     def test_updating_finds_what_the_records_were_made_with(self):
         with open(self.root / "results/mine/s6_updating/parameters.csv", newline="") as stream:

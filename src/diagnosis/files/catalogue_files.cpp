@@ -161,7 +161,8 @@ class Reader {
         u.log = is_log(e);
       else if (e.key == "start") {
         const auto* list = e.value.as<io::TomlValue::Array>();
-        if (list == nullptr) fail(e.line, "start", "is no list", "");
+        if (list == nullptr || list->empty())
+          fail(e.line, "start", "is no list of values", "give values between low and high, or leave start out");
         for (const auto& value : *list) u.start.push_back(expression(value, e.line, "start"));
       } else
         unknown(e, {"name", "unit", "low", "high", "scale", "start"});
@@ -180,7 +181,17 @@ class Reader {
   void check_bounds(const UnknownSpec& u) const {
     check_name(u.low, "low");
     check_name(u.high, "high");
-    for (const Expression& e : u.start) check_name(e, "start");
+    for (const Expression& e : u.start) {
+      check_name(e, "start");
+      const bool below = e.name == u.low.name && e.factor < u.low.factor,
+                 above = e.name == u.high.name && e.factor > u.high.factor;
+      const bool sign_known = e.name.empty() || !e.name.starts_with("x_");
+      if (sign_known && (below || above))
+        fail(e.line, u.name + ".start",
+             fmt::format("{:g} is {} {:g}", e.factor, below ? "below low," : "above high,",
+                         below ? u.low.factor : u.high.factor),
+             "give a value between low and high");
+    }
     const bool comparable = u.low.name == u.high.name && !u.low.name.starts_with("x_");  // a coordinate may be negative
     if (comparable && !(u.low.factor < u.high.factor))
       fail(u.low.line, u.name + ".low", fmt::format("{:g} is not below high, {:g}", u.low.factor, u.high.factor),

@@ -6,13 +6,14 @@
 #include <algorithm>
 
 #include "io/csv.hpp"
+#include "io/spreadsheet.hpp"
 
 namespace twindeck::diagnosis {
 
 std::vector<Claim> read_claims(const std::filesystem::path& folder) {
   const auto file = folder / "claims.csv";
   std::vector<Claim> claims;
-  if (!std::filesystem::exists(file)) return claims;
+  if (!io::has_table(file)) return claims;
   const auto table = io::CsvTable::read(file, {"kind", "name", "record", "value", "lower", "upper", "source"}, {});
   const std::vector<std::string> kinds = {"parameter_change_pct", "mac", "frequency_error_pct", "rms_error_pct"};
   for (std::size_t r = 0; r < table.rows(); ++r) {

@@ -7,6 +7,7 @@
 
 #include "core/error.hpp"
 #include "io/csv.hpp"
+#include "io/spreadsheet.hpp"
 #include "model_io/load_cases.hpp"
 #include "records/feature_rows.hpp"
 #include "records/measured_tables.hpp"
@@ -51,7 +52,7 @@ Row to_row(const records::FeatureRow& read, const std::vector<records::MeasuredC
 
 void read_quality(const std::filesystem::path& file, const std::vector<records::Correction>& corrections,
                   FeatureSet& features) {
-  if (!std::filesystem::exists(file)) return;
+  if (!io::has_table(file)) return;
   const auto table = io::CsvTable::read(file, {"channel"}, {}, true);
   for (std::size_t row = 0; row < table.rows(); ++row) {
     const std::string channel = corrected(corrections, table.text(row, "channel")).name;
@@ -71,7 +72,7 @@ FeatureSet read_all_features(const std::filesystem::path& folder, const records:
   correct(choice.corrections, conditions);
   features.conditions = all_of(conditions);
   std::vector<matching::Channel> channels;
-  if (std::filesystem::exists(folder / "channels.csv")) channels = records::read_channels(folder / "channels.csv");
+  if (io::has_table(folder / "channels.csv")) channels = records::read_channels(folder / "channels.csv");
   for (const matching::Channel& channel : channels) {
     features.channels.push_back(channel.name);
     features.direction.push_back(channel.direction);

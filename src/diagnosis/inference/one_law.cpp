@@ -83,12 +83,6 @@ OneLaw::Point OneLaw::at(const VectorXd& tau) const {
   return out;
 }
 
-MatrixXd OneLaw::precision(const Point& point) const {
-  const MatrixXd identity = MatrixXd::Identity(whitener_.rows(), whitener_.rows());
-  const MatrixXd half = linalg::lower_solve(point.lower, linalg::lower_solve(whitener_, identity));
-  return linalg::product(half, half, true);
-}
-
 OneLaw::Look OneLaw::look(const LawHypothesis& white, const VectorXd& log_tau) const {
   Look out;
   out.log_tau = log_tau;
@@ -121,27 +115,47 @@ OneLaw::Look OneLaw::look(const LawHypothesis& white, const VectorXd& log_tau) c
 
 void OneLaw::slope_of(const LawHypothesis& white, Look& look) const {
   const auto count = static_cast<Index>(white.active.size());
+  const MatrixXd inverse = linalg::inverse_of_factored(look.point.lower);
   const MatrixXd alpha = linalg::lower_solve(look.point.lower, look.solved, true);
   look.gradient.resize(count);
-  look.curvature.resize(count, count);
-  std::vector<MatrixXd> half;  // L^-1 D_c, so that |D_c' Sigma^-1 D_d|² is that of their product
-  for (const ActiveClass& active : white.active)
-    half.push_back(linalg::lower_solve(look.point.lower, columns_[static_cast<std::size_t>(active.index)]));
+  std::vector<MatrixXd> along;  // L^-1 D_c D_c' alpha, each column times the root of its weight
   for (Index k = 0; k < count; ++k) {
     const ActiveClass& active = white.active[static_cast<std::size_t>(k)];
-    const MatrixXd& columns = columns_[static_cast<std::size_t>(active.index)];
+    const MatrixXd& square = products_[static_cast<std::size_t>(active.index)];
     const double tau = look.tau[active.index], q = tau * tau / (3.0 * active.scale * active.scale);
-    const VectorXd along = linalg::product(columns, alpha, true).colwise().squaredNorm();
-    look.gradient[k] =
-        tau * tau * (along.dot(look.weight) - half[static_cast<std::size_t>(k)].squaredNorm()) + 1.0 - 4.0 * q / (1.0 + q);
-    for (Index l = 0; l <= k; ++l) {
-      const double other = look.tau[white.active[static_cast<std::size_t>(l)].index];
-      const double square =
-          linalg::product(half[static_cast<std::size_t>(l)], half[static_cast<std::size_t>(k)], true).squaredNorm();
-      look.curvature(k, l) = look.curvature(l, k) = 2.0 * tau * tau * other * other * square;
-    }
-    look.curvature(k, k) += 8.0 * q / ((1.0 + q) * (1.0 + q));
+    MatrixXd moved = linalg::product(square, alpha);
+    const VectorXd power = moved.cwiseProduct(alpha).colwise().sum();
+    look.gradient[k] = tau * tau * (power.dot(look.weight) - square.cwiseProduct(inverse).sum()) + 1.0 - 4.0 * q / (1.0 + q);
+    moved *= look.weight.cwiseSqrt().asDiagonal();
+    along.push_back(linalg::lower_solve(look.point.lower, std::move(moved)));
   }
+  look.curvature = with_prior(white, look, [&](std::size_t k, std::size_t l) { return along[k].cwiseProduct(along[l]).sum(); });
+}
+
+MatrixXd OneLaw::expected_curvature(const LawHypothesis& white, const Look& look) const {
+  std::vector<MatrixXd> squares;  // L^-1 D_c D_c' L^-T
+  for (const ActiveClass& active : white.active) {
+    const MatrixXd half = linalg::lower_solve(look.point.lower, columns_[static_cast<std::size_t>(active.index)]);
+    squares.push_back(linalg::product(half, half.transpose()));
+  }
+  return with_prior(white, look, [&](std::size_t k, std::size_t l) { return squares[k].cwiseProduct(squares[l]).sum(); });
+}
+
+MatrixXd OneLaw::with_prior(const LawHypothesis& white, const Look& look,
+                            const std::function<double(std::size_t, std::size_t)>& information) {
+  const std::size_t count = white.active.size();
+  MatrixXd out(count, count);
+  for (std::size_t k = 0; k < count; ++k) {
+    const ActiveClass& active = white.active[k];
+    const double tau = look.tau[active.index], q = tau * tau / (3.0 * active.scale * active.scale);
+    for (std::size_t l = 0; l <= k; ++l) {
+      const double other = look.tau[white.active[l].index];
+      const auto i = static_cast<Index>(k), j = static_cast<Index>(l);
+      out(i, j) = out(j, i) = 2.0 * tau * tau * other * other * information(k, l);
+    }
+    out(static_cast<Index>(k), static_cast<Index>(k)) += 8.0 * q / ((1.0 + q) * (1.0 + q));
+  }
+  return out;
 }
 
 double OneLaw::log_posterior(const LawHypothesis& hypothesis, const VectorXd& tau) const {
@@ -184,7 +198,7 @@ LawEvidence OneLaw::scored(const LawHypothesis& hypothesis, const VectorXd& star
     if (!moved) break;
     slope_of(white, now);
   }
-  const MatrixXd lower = linalg::cholesky_factor(now.curvature);
+  const MatrixXd lower = linalg::cholesky_factor(expected_curvature(white, now));
   if (count > 0 && lower.size() == 0) return out;
   const double log_volume = 0.5 * static_cast<double>(count) * std::log(2.0 * std::numbers::pi) -
                             (count > 0 ? lower.diagonal().array().log().sum() : 0.0);

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <functional>
 #include <vector>
 
 namespace twindeck::diagnosis {
@@ -50,11 +51,13 @@ struct LawEvidence {
 /// @param precision  in the likelihood (k × k)
 [[nodiscard]] double log_width(const Eigen::MatrixXd& precision, const Eigen::VectorXd& range);
 
-/// Sigma(tau) of a system, whitened by Sigma_0. Each hypothesis' scales are found by Fisher scoring in ln tau: with
+/// Sigma(tau) of a system, whitened by Sigma_0. Each hypothesis' scales are found by scoring in ln tau: with
 /// alpha = Sigma^-1 e, q_c = tau_c² / (3 s_c²)
 ///   gradient  tau_c² (|D_c' alpha|² - tr D_c' Sigma^-1 D_c) + 1 - 4 q_c / (1 + q_c),
-///   H_cd = 2 tau_c² tau_d² |D_c' Sigma^-1 D_d|² + delta_cd 8 q_c / (1 + q_c)².
-/// Reference: Harville (1977), J. Am. Stat. Assoc. 72, 320-338 (scoring of variance components).
+///   steps     H_cd = 2 tau_c² tau_d² alpha' D_c D_c' Sigma^-1 D_d D_d' alpha + delta_cd 8 q_c / (1 + q_c)²,
+///   volume    H_cd = 2 tau_c² tau_d² |D_c' Sigma^-1 D_d|² + delta_cd 8 q_c / (1 + q_c)² at the mode.
+/// References: Harville (1977), J. Am. Stat. Assoc. 72, 320-338 (scoring of variance components); Gilmour, Thompson and Cullis
+/// (1995), Biometrics 51, 1440-1450 (steps by the average information).
 class OneLaw {
  public:
   /// @throws nothing; `sound()` is false if Sigma_0 is not positive definite
@@ -70,8 +73,6 @@ class OneLaw {
     double log_determinant = 0.0;
   };
   [[nodiscard]] Point at(const Eigen::VectorXd& tau) const;
-  /// Sigma^-1 of the rows as they are (n_rows × n_rows).
-  [[nodiscard]] Eigen::MatrixXd precision(const Point& point) const;
 
   /// The mode of the scales from a start (n_classes; where an active class starts at 0 it starts at its half-t scale), and the
   /// evidence there.
@@ -82,7 +83,13 @@ class OneLaw {
  private:
   struct Look;
   [[nodiscard]] Look look(const LawHypothesis& white, const Eigen::VectorXd& log_tau) const;
+  /// Gradient, and a curvature for steps: the average information, half of what the data say and half of what is expected.
+  /// It costs products with vectors; Fisher's, which Laplace's approximation needs, products of matrices.
   void slope_of(const LawHypothesis& white, Look& look) const;
+  [[nodiscard]] Eigen::MatrixXd expected_curvature(const LawHypothesis& white, const Look& look) const;
+  /// Curvature in ln tau from what the rows tell of each pair of classes.
+  static Eigen::MatrixXd with_prior(const LawHypothesis& white, const Look& look,
+                                    const std::function<double(std::size_t, std::size_t)>& information);
 
   Eigen::MatrixXd whitener_;  // L_0
   double log_determinant_ = 0.0, log_prior_ = 0.0;

@@ -2,11 +2,13 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <map>
 #include <set>
 #include <string>
 
 #include "core/error.hpp"
+#include "diagnosis/reduction/composite_groups.hpp"
 #include "diagnosis/reduction/place_parts.hpp"
 #include "fe/assembly_elements.hpp"
 #include "fe/mixed_sides.hpp"
@@ -86,30 +88,26 @@ std::vector<int> ElementPlaces::measured_nodes() const {
 void ElementPlaces::add_zones(const std::vector<int>& centres, Places& places, std::vector<Eigen::Vector3d> points) const {
   if (points.empty())
     for (const int c : centres) points.push_back(centroids_[static_cast<std::size_t>(c)]);
-  std::vector<Sum> stiffness(centres.size()), mass(centres.size());
-  std::vector<std::vector<int>> members(centres.size());
-  for (auto* sums : {&stiffness, &mass})
-    for (Sum& sum : *sums) sum.size = expansion_.rows();
+  std::map<std::pair<std::size_t, std::string>, std::vector<std::size_t>> zones;  // by centre and group: positions of elements
+  std::vector<double> least(points.size(), std::numeric_limits<double>::infinity());
+  const auto off = [&](std::size_t centre, std::size_t i) { return (centroids_[i] - points[centre]).squaredNorm(); };
   for (std::size_t i = 0; i < candidates_.size(); ++i) {
     // With a zone an element, an element is its own zone even where two have one middle.
-    const std::size_t zone =
+    const std::size_t centre =
         centres.size() == candidates_.size() ? i : static_cast<std::size_t>(nearest(points, centroids_[i]));
-    const fe::Element& element = model_.elements[static_cast<std::size_t>(candidates_[i])];
-    members[zone].push_back(candidates_[i]);
-    stiffness[zone].add(element_stiffness(model_, static_cast<std::size_t>(candidates_[i]), straight_sides_));
-    mass[zone].add(fe::element_mass(model_, element));
+    zones[{centre, model_.elements[static_cast<std::size_t>(candidates_[i])].group}].push_back(i);
+    least[centre] = std::min(least[centre], off(centre, i));
   }
-  for (std::size_t z = 0; z < centres.size(); ++z) {
-    const fe::Element& centre = model_.elements[static_cast<std::size_t>(candidates_[static_cast<std::size_t>(centres[z])])];
-    places.sets["elements"].push_back({"element:" + std::to_string(centre.id),
-                                       points[z],
-                                       free(stiffness[z]),
-                                       free(mass[z]),
-                                       {},
-                                       {},
-                                       members[z],
-                                       laws_.stiffness(members[z]),
-                                       laws_.mass(members[z])});
+  for (const auto& [key, members] : zones) {
+    const std::size_t centre = key.first;
+    const std::size_t middle = *std::min_element(members.begin(), members.end(),
+                                                 [&](std::size_t i, std::size_t j) { return off(centre, i) < off(centre, j); });
+    std::vector<int> elements;
+    for (const std::size_t i : members) elements.push_back(candidates_[i]);
+    Place zone = part(elements);
+    if (off(centre, middle) <= least[centre]) zone.x_m = points[centre];
+    zone.id = "element:" + std::to_string(model_.elements[static_cast<std::size_t>(candidates_[middle])].id);
+    places.sets["elements"].push_back(std::move(zone));
   }
 }
 
@@ -319,14 +317,25 @@ void ElementPlaces::add_nodes(const std::vector<int>& chosen, Places& places) co
   }
 }
 
-void ElementPlaces::add_groups(Places& places) const {
-  struct Group {
-    Sum stiffness, mass;
-    Eigen::Vector3d sum = Eigen::Vector3d::Zero();
-    int count = 0;
-    std::vector<int> elements;
-    std::vector<const fe::Spring*> springs;
-  };
+/// Elements, and springs between nodes, of one or several groups.
+struct ElementPlaces::Group {
+  ElementSum stiffness, mass;
+  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+  int count = 0;
+  std::vector<int> elements;
+  std::vector<const fe::Spring*> springs;
+  void join(const Group& other) {
+    const auto append = [](auto& to, const auto& from) { to.insert(to.end(), from.begin(), from.end()); };
+    append(stiffness.entries, other.stiffness.entries);
+    append(mass.entries, other.mass.entries);
+    append(elements, other.elements);
+    append(springs, other.springs);
+    sum += other.sum;
+    count += other.count;
+  }
+};
+
+std::vector<std::pair<std::string, ElementPlaces::Group>> ElementPlaces::groups() const {
   std::vector<std::string> order;
   std::map<std::string, Group> groups;
   const auto group_of = [&](const std::string& name) -> Group& {
@@ -356,20 +365,41 @@ void ElementPlaces::add_groups(Places& places) const {
     group.sum += model_.nodes[static_cast<std::size_t>(spring.node)].x_m;
     ++group.count;
   }
+  std::vector<std::pair<std::string, Group>> out;
+  for (const std::string& name : order) out.emplace_back(name, std::move(groups.at(name)));
+  return out;
+}
+
+void ElementPlaces::add_groups(Places& places) const {
   std::vector<Place>& set = places.sets["groups"];
   const std::vector<Place> of_parameters = set;
-  for (const std::string& name : order) {
-    const Group& group = groups.at(name);
-    Place place{"group:" + name, group.sum / group.count, free(group.stiffness), {}, {}, {}, group.elements};
+  const auto add = [&](const std::string& id, const Group& group) {
+    Place place{id, group.sum / group.count, free(group.stiffness), {}, {}, {}, group.elements};
     if (!group.mass.entries.empty()) place.mass = free(group.mass);
     const bool known = std::any_of(of_parameters.begin(), of_parameters.end(), [&](const Place& other) {
       return other.id == place.id ||
              (other.stiffness.nonZeros() > 0 && alike(other.stiffness.whole(), place.stiffness.whole()));
     });
-    if (known || place.stiffness.nonZeros() == 0) continue;
+    if (known || place.stiffness.nonZeros() == 0) return;
     place.stiffness_law = laws_.stiffness(group.elements, group.springs);
     place.mass_law = laws_.mass(group.elements);
     set.push_back(std::move(place));
+  };
+  std::vector<std::string> order;
+  std::map<std::string, Group> found;
+  for (auto& [name, group] : groups()) {
+    add("group:" + name, group);
+    order.push_back(name);
+    found.emplace(name, std::move(group));
+  }
+  for (const std::vector<std::string>& names : composite_groups(order)) {
+    Group together{{expansion_.rows(), {}}, {expansion_.rows(), {}}, Eigen::Vector3d::Zero(), 0, {}, {}};
+    std::string id;
+    for (const std::string& name : names) {
+      together.join(found.at(name));
+      id += (id.empty() ? "groups:" : ",") + name;
+    }
+    add(id, together);
   }
 }
 

@@ -19,12 +19,14 @@ class ElementPlaces {
   [[nodiscard]] std::vector<Eigen::Vector3d> node_positions() const;  ///< of nodes that an element reaches and that can move
   [[nodiscard]] std::vector<int> measured_nodes() const;              ///< positions in `node_positions`
 
-  /// Set elements. @param points  what elements are near to; the middles of `centres` where empty
+  /// Set elements: those of one group that are nearest to one centre are a place, named after the one in their middle.
+  /// @param points  what elements are near to; the middles of `centres` where empty
   void add_zones(const std::vector<int>& centres, Places& places, std::vector<Eigen::Vector3d> points = {}) const;
   void add_stays(Places& places) const;     ///< set stays
   void add_dampers(Places& places) const;   ///< sets dampers, damper_types
   void add_supports(Places& places) const;  ///< sets supports, foundations
-  /// Set groups: every group of elements, and of springs between nodes, that no parameter's place is the same as.
+  /// Set groups: every group of elements, and of springs between nodes, that no parameter's place is the same as, and groups
+  /// that their names put together ("groups:a,b").
   void add_groups(Places& places) const;
   /// Set support_moves: where a support on a line of beams may stand instead.
   void add_support_moves(Places& places) const;
@@ -41,6 +43,8 @@ class ElementPlaces {
 
  private:
   using Sum = ElementSum;
+  struct Group;
+  [[nodiscard]] std::vector<std::pair<std::string, Group>> groups() const;  ///< in the order in which the model has them
   [[nodiscard]] Symmetric free(const Sum& sum) const { return sum.free(expansion_); }
   [[nodiscard]] fe::ElementMatrix stay_stiffness(std::size_t element, double pull) const;
   [[nodiscard]] double pull_of(std::size_t element) const;

@@ -208,6 +208,7 @@ PlaceInWords PlaceWords::at(const std::string& location) const {
   if (kind == "damper" || kind == "dampers") return dampers(names);
   if (kind == "channel" || kind == "channels") return channels(split(names));
   if (kind == "group") return group(names);
+  if (kind == "groups") return groups(split(names));
   if (kind == "mode") return {"mode " + names, kNowhere};
   return {location, kNowhere};
 }
@@ -312,6 +313,12 @@ PlaceInWords PlaceWords::channels(const std::vector<std::string>& names) const {
   const std::string words = fmt::format("the sensor{} {}", names.size() > 1 ? "s" : "", listed(names));
   if (names.size() == 1) return with_points(words, points);
   return {words, distinct(points).size() == 1 ? points[0] : kNowhere};
+}
+
+PlaceInWords PlaceWords::groups(const std::vector<std::string>& names) const {
+  Points points;
+  for (const std::string& name : names) points.push_back(group(name).x_m);
+  return with_points("the groups " + listed(names), points);
 }
 
 PlaceInWords PlaceWords::group(const std::string& name) const {

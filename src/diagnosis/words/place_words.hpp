@@ -59,6 +59,7 @@ class PlaceWords {
   [[nodiscard]] PlaceInWords dampers(const std::string& names) const;
   [[nodiscard]] PlaceInWords channels(const std::vector<std::string>& names) const;
   [[nodiscard]] PlaceInWords group(const std::string& name) const;
+  [[nodiscard]] PlaceInWords groups(const std::vector<std::string>& names) const;
 
   const fe::Model* model_;
   std::vector<matching::Channel> channels_;

@@ -13,6 +13,7 @@
 #include "diagnosis/files/feature_files.hpp"
 #include "diagnosis/files/load_test_files.hpp"
 #include "diagnosis/reduction/diagnosed_model.hpp"
+#include "io/spreadsheet.hpp"
 #include "matching/mode_name.hpp"
 #include "matching/shapes_at_sensors.hpp"
 #include "runner/shipped_files.hpp"
@@ -47,8 +48,7 @@ void read_measurement(const DiagnosisConfig& config, runner::StepContext& contex
   for (const diagnosis::Row& row : files.features.rows)
     if (row.type == diagnosis::RowType::stay_frequency) files.stay_rows.push_back(row);
   diagnosis::choose_rows(config.rows, files.features);
-  if (std::filesystem::exists(files.folder / "channels.csv"))
-    files.channels = records::read_channels(files.folder / "channels.csv");
+  if (io::has_table(files.folder / "channels.csv")) files.channels = records::read_channels(files.folder / "channels.csv");
   files.claims = diagnosis::read_claims(files.folder);
 }
 

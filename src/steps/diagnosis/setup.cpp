@@ -123,6 +123,8 @@ DiagnosisInputs prepare_diagnosis(const DiagnosisConfig& config, const Diagnosis
   const double least_mac = config.least_mac > 0.0 || !inputs.bar_stays ? config.least_mac : kAlike;
   if (const auto unpaired = diagnosis::leave_out_unpaired(least_mac, config.scatter, *inputs.reduced, inputs.features))
     inputs.account.push_back(*unpaired);
+  if (const auto imaginary = diagnosis::leave_out_imaginary(*inputs.reduced, inputs.features))
+    inputs.account.push_back(*imaginary);
   diagnosis::hold_out(config.hold_out, inputs.features);
   return inputs;
 }

@@ -4,6 +4,7 @@
 
 #include "core/error.hpp"
 #include "io/csv.hpp"
+#include "io/spreadsheet.hpp"
 #include "matching/mode_name.hpp"
 #include "model_io/modes_io.hpp"
 #include "runner/study.hpp"
@@ -68,7 +69,7 @@ matching::Measured read_measured_modes(const std::filesystem::path& folder, cons
     measured.rows.push_back({i, -1, false, measured.modes.frequency_Hz[i]});
   }
   measured.covariance = measured.modes.frequency_std_Hz.cwiseAbs2().asDiagonal();
-  if (std::filesystem::exists(folder / "channels.csv")) measured.channels = records::read_channels(folder / "channels.csv");
+  if (io::has_table(folder / "channels.csv")) measured.channels = records::read_channels(folder / "channels.csv");
   correct(choice.corrections, measured.modes, (folder / "shapes.csv").string());
   return measured;
 }

@@ -209,18 +209,13 @@ ReliabilityInputs read_reliability_inputs(const ReliabilityConfig& config, runne
   std::optional<reliability::WindLaw> law =
       read_wind_law(config.wind_law, aerodynamics.direction_deg, validation.height_m, context);
 
+  std::vector<MonitoredName> monitored;
+  if (!walls.empty()) monitored = read_monitored(context, config.condition);
   Inputs inputs = random_inputs(config, aerodynamics.structural_damping, !walls.empty(), model.parameters(), context);
-  return {std::move(aerodynamics),
-          std::move(models),
-          std::move(validation),
-          std::move(turbulence),
-          std::move(data),
-          level,
-          std::move(model),
-          std::move(inputs.random),
-          std::move(inputs.parameters),
-          std::move(walls),
-          std::move(law)};
+  return {std::move(aerodynamics), std::move(models),        std::move(validation),
+          std::move(turbulence),   std::move(data),          level,
+          std::move(model),        std::move(inputs.random), std::move(inputs.parameters),
+          std::move(walls),        std::move(law),           std::move(monitored)};
 }
 
 }  // namespace twindeck::steps

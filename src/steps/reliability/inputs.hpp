@@ -8,6 +8,7 @@
 #include "reliability/wind_law.hpp"
 #include "reliability/worn_model.hpp"
 #include "runner/run_step.hpp"
+#include "steps/reliability/monitoring.hpp"
 #include "steps/reliability/reliability_config.hpp"
 #include "steps/wind/aerodynamics_config.hpp"
 #include "steps/wind/deck_files.hpp"
@@ -29,6 +30,7 @@ struct ReliabilityInputs {
   std::vector<int> parameters;  ///< of the model, in the order of the inputs "parameter:NAME"
   std::vector<reliability::Wall> walls;
   std::optional<reliability::WindLaw> law;
+  std::vector<MonitoredName> monitored;  ///< empty where no wall is given
 };
 /// The parameters' laws are those of step 6's posterior.csv and correlations.csv where it wrote them; a note says where it did
 /// not.

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <map>
 
+#include "core/parallel.hpp"
 #include "reliability/annual.hpp"
 #include "reliability/fatigue.hpp"
 #include "reliability/form.hpp"
@@ -162,9 +163,13 @@ void find_critical(const ReliabilityConfig& config, const ReliabilityInputs& rea
   }
   const reliability::VariedStructure varied(s.bridge.loaded, aero::bare_structure(model, read.aerodynamics.structural_damping),
                                             model.motions, model.modes.shapes, read.parameters);
-  for (const std::string& name : read.models)
-    add(reliability::critical_speed(s.uncertain, read.aerodynamics, model, varied,
-                                    buffeting::deployment_of(read.aerodynamics, name), false));
+  std::vector<reliability::CriticalSpeed> speeds(read.models.size());
+  parallel_for(std::ssize(speeds), [&](Index i) {
+    const auto at = static_cast<std::size_t>(i);
+    speeds[at] = reliability::critical_speed(s.uncertain, read.aerodynamics, model, varied,
+                                             buffeting::deployment_of(read.aerodynamics, read.models[at]), false);
+  });
+  for (const reliability::CriticalSpeed& speed : speeds) add(speed);
 }
 
 void add_responses(const ReliabilityConfig& config, const Structure& s, double speed,
@@ -284,6 +289,13 @@ void find_responses(const ReliabilityConfig& config, const ReliabilityInputs& re
           reliability::uncertain_moments(s.uncertain, response, speed, [&](const auto& mean) { return largest_rows(s, mean); });
     if (!moments.stable) {
       left_out += fmt::format("{}{:.4g}", left_out.empty() ? "" : ", ", speed);
+      if (nearby) {
+        context.warn(fmt::format(
+            "in year {:g} {}{} at {:.4g} m/s {} among the modes of step 8, and no mode that step 7 follows loses its damping "
+            "below that speed: critical.csv does not know of it; raise followed_modes and n_modes of step 7",
+            s.of.years, s.of.dampers ? "with dampers" : "without dampers", s.of.fault.empty() ? "" : ", " + s.of.fault, speed,
+            moments.growth));
+      }
       continue;
     }
     for (const Found::First& first : found.first)
@@ -332,6 +344,20 @@ void find_years(const ReliabilityInputs& read, const fe::Model& start, const Str
         found.years.push_back({s.of, "remaining_area", section.name, "-", wall.remaining(section, s.of.years), std::nullopt});
     }
   }
+}
+
+/// What two measurements of the frequencies would see of each wall's loss.
+void find_visible(const ReliabilityInputs& read, const fe::Model& start, const Structure& s, runner::StepContext& context) {
+  const aero::WindModel& model = s.bridge.model;
+  std::vector<MonitoredName> known;
+  std::vector<reliability::MonitoredMode> modes;
+  for (const MonitoredName& monitored : read.monitored) {
+    if (monitored.mode.mode >= model.modes.frequency_Hz.size()) continue;
+    known.push_back(monitored);
+    modes.push_back(monitored.mode);
+  }
+  write_visible(reliability::visible_losses(start, model.modes.shapes, model.modes.frequency_Hz, read.walls, modes), read.walls,
+                known, context.out);
 }
 
 /// Figures of a year under the user's wind law. Above the last speed that was computed, or where the bridge is unstable, a
@@ -401,6 +427,7 @@ Status run_reliability(const ReliabilityConfig& config, const ReliabilityInputs&
       find_critical(config, read, structure, found);
       find_responses(config, read, structure, context, found);
       if (!of.dampers) find_years(read, start, structure, found);
+      if (!of.dampers && years == 0.0 && !read.monitored.empty()) find_visible(read, start, structure, context);
       context.progress("years and cases", ++done, static_cast<double>(cases.size() * config.years.size()));
     }
   }

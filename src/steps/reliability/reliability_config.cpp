@@ -6,10 +6,18 @@ namespace twindeck::steps {
 
 namespace {
 
-io::FieldTable wall_fields(ReliabilityConfig& config) {
-  StatedWall& wall = config.walls.emplace_back();
-  io::FieldTable w;
-  w.texts("sections", wall.sections, "sections of sections.csv that corrode alike")
+/// What makes the fields of a new row of a list.
+template <typename Row, typename Fields>
+auto new_row(std::vector<Row>& rows, const Fields& fields) {
+  return [&rows, fields] {
+    io::FieldTable t;
+    fields(rows.emplace_back(), t);
+    return t;
+  };
+}
+
+void add_wall(StatedWall& wall, io::FieldTable& t) {
+  t.texts("sections", wall.sections, "sections of sections.csv that corrode alike")
       .number("thickness", wall.thickness_m, "m", {0.0, 10.0},
               "thickness of the wall; 0: round ropes or rods, or a shell's own")
       .integer("sides", wall.sides, {1.0, 2.0}, "surfaces of the wall that corrode")
@@ -17,36 +25,38 @@ io::FieldTable wall_fields(ReliabilityConfig& config) {
       .number("first_year", wall.first_year_m, "m", {0.0, 0.1}, "loss of the first year; 0: the middle of the category's range")
       .number("exponent", wall.exponent, "", {0.0, 1.0, true}, "b of D = r t^b, ISO 9224: 0.523, upper bound 0.575")
       .number("coating_life_years", wall.coating_life_years, "", {0.0, 1000.0}, "years until the coating is gone");
-  return w;
+}
+
+void add_fault(StatedFault& fault, io::FieldTable& t) {
+  t.text("damper", fault.damper, "name of the damper in springs.csv", true)
+      .choice("kind", fault.kind, {"held", "lost"}, "held by static friction, or taken out");
+}
+
+void add_comfort(StatedComfort& limit, io::FieldTable& t) {
+  t.text("name", limit.name, "of the guideline or of your own", true)
+      .number("vertical", limit.vertical_m_s2, "m/s2", {0.0, 100.0}, "limit of the vertical acceleration; 0: none")
+      .number("lateral", limit.lateral_m_s2, "m/s2", {0.0, 100.0}, "limit of the lateral acceleration; 0: none");
+}
+
+void add_random(StatedInput& input, io::FieldTable& t) {
+  t.text("name", input.name, "\"parameter:NAME\" of the model, or one of the four above by its name in random.csv", true)
+      .choice("law", input.law, {"normal", "lognormal", "uniform", "gumbel", "weibull"}, "law of the input")
+      .number("mean", input.mean, "", {-1e300, 1e300}, "mean, in the input's own unit", true)
+      .number("deviation", input.deviation, "", {-1e300, 1e300}, "standard deviation, in the same unit; 0 keeps it fixed", true)
+      .boolean("bounded", input.bounded, "the law is cut to low and high")
+      .number("low", input.low_value, "", {-1e300, 1e300}, "least value, where it is bounded")
+      .number("high", input.high_value, "", {-1e300, 1e300}, "largest value, where it is bounded")
+      .choice("label", input.label, {"paper", "code", "assumed", "identified", "user"}, "kind of the numbers")
+      .text("source", input.source, "where they come from");
 }
 
 void add_tables(ReliabilityConfig& config, io::FieldTable& t) {
   t.texts("rare", config.rare,
           "limit states of crossings.csv whose excursion is also found by FORM and by subset simulation (rare.csv)")
       .numbers("years", config.years, "", {0.0, 1000.0}, "years in service that are computed, the first of them 0")
-      .tables(
-          "wall", [&config] { return wall_fields(config); }, "sections that lose thickness")
-      .tables(
-          "fault",
-          [&config] {
-            StatedFault& fault = config.faults.emplace_back();
-            io::FieldTable f;
-            f.text("damper", fault.damper, "name of the damper in springs.csv", true)
-                .choice("kind", fault.kind, {"held", "lost"}, "held by static friction, or taken out");
-            return f;
-          },
-          "one damper at fault: a further case with dampers")
-      .tables(
-          "comfort",
-          [&config] {
-            StatedComfort& limit = config.comfort.emplace_back();
-            io::FieldTable c;
-            c.text("name", limit.name, "of the guideline or of your own", true)
-                .number("vertical", limit.vertical_m_s2, "m/s2", {0.0, 100.0}, "limit of the vertical acceleration; 0: none")
-                .number("lateral", limit.lateral_m_s2, "m/s2", {0.0, 100.0}, "limit of the lateral acceleration; 0: none");
-            return c;
-          },
-          "comfort limits beside those of step 8", "name")
+      .tables("wall", new_row(config.walls, add_wall), "sections that lose thickness")
+      .tables("fault", new_row(config.faults, add_fault), "one damper at fault: a further case with dampers")
+      .tables("comfort", new_row(config.comfort, add_comfort), "comfort limits beside those of step 8", "name")
       .choice("wind_law.kind", config.wind_law.kind, {"none", "weibull", "table", "gumbel", "code"},
               "your law of the mean wind at the deck: weibull and table hold all ten-minute means, gumbel and code the largest "
               "of a year; none: no annual figure")
@@ -86,26 +96,8 @@ io::FieldTable ReliabilityConfig::fields() {
               "coefficient of variation of the dampers' constants (lognormal about 1); paper, Table 1: 5 %")
       .number("turbulence_variation", turbulence_variation, "", variation,
               "coefficient of variation of the turbulence intensity (lognormal about 1); assumed")
-      .tables(
-          "random",
-          [this] {
-            random.emplace_back();
-            StatedInput& input = random.back();
-            io::FieldTable r;
-            r.text("name", input.name, "\"parameter:NAME\" of the model, or one of the four above by its name in random.csv",
-                   true)
-                .choice("law", input.law, {"normal", "lognormal", "uniform", "gumbel", "weibull"}, "law of the input")
-                .number("mean", input.mean, "", {-1e300, 1e300}, "mean, in the input's own unit", true)
-                .number("deviation", input.deviation, "", {-1e300, 1e300},
-                        "standard deviation, in the same unit; 0 keeps it fixed", true)
-                .boolean("bounded", input.bounded, "the law is cut to low and high")
-                .number("low", input.low_value, "", {-1e300, 1e300}, "least value, where it is bounded")
-                .number("high", input.high_value, "", {-1e300, 1e300}, "largest value, where it is bounded")
-                .choice("label", input.label, {"paper", "code", "assumed", "identified", "user"}, "kind of the numbers")
-                .text("source", input.source, "where they come from");
-            return r;
-          },
-          "a random input of your own: it replaces the one of the same name, or adds a parameter of the model", "name")
+      .tables("random", new_row(random, add_random),
+              "a random input of your own: it replaces the one of the same name, or adds a parameter of the model", "name")
       .number("corrosion_variation", corrosion_variation, "", variation,
               "coefficient of variation of the rate of corrosion (lognormal about 1); assumed")
       .number("held_stiffness", held_stiffness_N_m, "N/m", {0.0, 1e12, true},
@@ -114,6 +106,8 @@ io::FieldTable ReliabilityConfig::fields() {
       .choice("stay_class", stay_class, {"bar", "coil_rope", "spiral_strand", "parallel"},
               "fatigue category of the stays, EN 1993-1-11:2006, table 9.1: bars 105 MPa, locked coil ropes and spiral strands "
               "150 MPa, parallel wires and strands 160 MPa");
+  t.text("condition", condition,
+         "condition of the measured features whose standard deviations say what monitoring would see; empty: the only one");
   add_tables(*this, t);
   return t;
 }

@@ -61,6 +61,7 @@ struct ReliabilityConfig {
   std::string stay_class = "spiral_strand";
   double damper_stroke_m = 0.0;
   StatedWindLaw wind_law;
+  std::string condition;
 
   [[nodiscard]] io::FieldTable fields();
 };

@@ -50,7 +50,7 @@ io::FieldTable AerodynamicsConfig::fields() {
                       "group of the elements across the deck, where the model names no aerodynamic nodes")
                 .number("chord", deck.chord_m, "m", io::positive(), "chord B", true)
                 .text("polar", deck.polar, "file of static coefficients", true)
-                .text("flutter", deck.flutter, "file of flutter derivatives", true)
+                .text("flutter", deck.flutter, "file of flutter derivatives; empty: the polar alone, for the set quasi_steady")
                 .number("arm_drag", deck.arm_drag, "", {}, "quasi-steady p2*/p1*")
                 .number("arm_lift", deck.arm_lift, "", {}, "quasi-steady h2*/h1*")
                 .number("arm_moment", deck.arm_moment, "", {}, "quasi-steady a2*/a1*")

@@ -41,8 +41,9 @@ std::map<std::string, std::string> exceptions_of(const aero::DeckWind& deck) {
 
 void check_laws(const aero::DeckWind& deck, const aero::DeckAerodynamics& data) {
   std::map<std::string, std::string> exceptions = exceptions_of(deck);
+  const aero::QuasiSteady::Arms arms{deck.arm_drag, deck.arm_lift, deck.arm_moment};
   for (const aero::BrokenLaw& broken :
-       aero::broken_laws(data.polar, *data.flutter, {deck.arm_drag, deck.arm_lift, deck.arm_moment})) {
+       data.flutter ? aero::broken_laws(data.polar, *data.flutter, arms) : aero::broken_laws(data.polar)) {
     if (exceptions.erase(broken.law) == 0) {
       throw InputError({"", 0, "deck " + deck.name}, "breaks the law '" + broken.law + "': " + broken.told,
                        "mend the file, or say why in the deck's exceptions: \"" + broken.law + ": reason\"");
@@ -58,12 +59,18 @@ void check_laws(const aero::DeckWind& deck, const aero::DeckAerodynamics& data) 
 
 std::vector<aero::DeckAerodynamics> read_deck_aerodynamics(const aero::WindSettings& config, runner::StepContext& context) {
   if (config.decks.empty())
-    throw InputError({"", 0, "deck"}, "no deck is given", "add a [[deck]] with name, chord, polar and flutter");
+    throw InputError({"", 0, "deck"}, "no deck is given",
+                     "add a [[deck]] with name, chord, polar and, where you have it, flutter");
   std::vector<aero::DeckAerodynamics> data;
   for (const aero::DeckWind& deck : config.decks) {
-    data.push_back({aero_io::read_polar(context.input(deck.polar)),
-                    std::make_shared<aero::DerivativeTable>(aero_io::read_flutter_derivatives(
-                        context.input(deck.flutter), choice(config.below_range), choice(config.above_range)))});
+    data.push_back({aero_io::read_polar(context.input(deck.polar)), nullptr});
+    const bool asked = std::find(config.sets.begin(), config.sets.end(), "standin") != config.sets.end();
+    if (deck.flutter.empty() && asked)
+      throw InputError({"", 0, "deck " + deck.name}, "has no file of flutter derivatives, which the set standin is made of",
+                       "give its flutter, or write sets = [\"quasi_steady\"] in step 7 and set = \"quasi_steady\" in step 8");
+    if (!deck.flutter.empty())
+      data.back().flutter = std::make_shared<aero::DerivativeTable>(aero_io::read_flutter_derivatives(
+          context.input(deck.flutter), choice(config.below_range), choice(config.above_range)));
     check_laws(deck, data.back());
   }
   return data;

@@ -37,6 +37,8 @@ TEST(Stability, GallopsFromItsClosedFormOn) {
   EXPECT_EQ(found->still_air_mode, 1);
   EXPECT_FALSE(found->at_own_frequency);
   EXPECT_EQ(found->in_words(), "mode 1 grows at 0.7 Hz, damping ratio -0.2 %");
+  const double below = 0.9 * still_omega;  // what is faster than asked for does not count
+  EXPECT_FALSE(aero::find_growth(system, 1.2 * critical, {3.0, {0.5, below}, below}));
 }
 
 // Without damping and wind nothing grows: rounding is no growth, beside a coordinate of 1 kHz too.

@@ -2,6 +2,8 @@
 // dense matrices of its own.
 #include <gtest/gtest.h>
 
+#include <map>
+
 #include "chain.hpp"
 #include "diagnosis/form_frame.hpp"
 #include "diagnosis/law_diagnosis.hpp"
@@ -47,23 +49,28 @@ TEST(States, TheFirstIsReferenceOrElseTheFirstOfTheFile) {
   EXPECT_EQ(states_of(f), (std::vector<std::string>{"stiff", "flexible"}));
 }
 
-TEST(States, PartsChangeInOneStateAndSensorsInAll) {
+TEST(States, PartsChangeInOneStateOrErrInAllAndSensorsAreWrongInAll) {
   const Chain chain({.masses = 6, .modes = 4});
   const auto features = two_states(chain.measure(chain.as_modelled()), chain.measure(chain.as_modelled()));
   const Examined e = examine(chain, features, catalogue({"stiffness", "mass", "gain"}));
+  std::map<std::string, int> asked;
   for (const auto& candidate : e.entries.candidates) {
     if (candidate->hypothesis->id == "gain") {
       EXPECT_EQ(candidate->state, "") << candidate->id();
     }
     if (candidate->hypothesis->id == "stiffness") {
+      ++asked[candidate->state];
+      if (candidate->state.empty()) continue;
       EXPECT_EQ(candidate->state, "after");
-      EXPECT_LE(candidate->low[0], std::log(0.05) + 1e-12);
+      EXPECT_LE(candidate->low[0], std::log(0.005) + 1e-12);
       EXPECT_GE(candidate->high[0], std::log(20.0) - 1e-12);
     }
-    if (candidate->hypothesis->id == "mass") {
-      EXPECT_NE(candidate->state, "");
-    }
+    if (candidate->hypothesis->id == "mass") ++asked["mass " + candidate->state];
   }
+  EXPECT_EQ(asked["after"], asked[""]);
+  EXPECT_EQ(asked["mass after"], asked["mass "]);
+  EXPECT_EQ(asked["mass reference"], asked["mass "]);
+  EXPECT_GT(asked["mass "], 0);
   const auto contrasts = diagnosis::contrasts_of(features);
   ASSERT_EQ(contrasts.size(), 1u);
   EXPECT_EQ(contrasts[0].key, "state after");
@@ -146,7 +153,7 @@ TEST(States, ASizeAtItsLeastIsNotNamed) {
   const auto result =
       asked(examine(chain, two_states(chain.measure(light, &random), chain.measure(heavy, &random)), std::move(masses)));
   EXPECT_EQ(result.verdict, diagnosis::Verdict::unknown) << result.message;
-  EXPECT_NE(result.message.find("as small as it can be"), std::string::npos) << result.message;
+  EXPECT_TRUE(result.effects.empty() || result.message.find("as small as it can be") != std::string::npos) << result.message;
 }
 
 TEST(States, FindsWhatWasAddedAndWhatWasTakenAway) {
@@ -188,8 +195,8 @@ TEST(States, OfThreeHaveAContrastFromEachOnAndOfEach) {
   EXPECT_EQ(contrasts[2].key, "from state after on");
   EXPECT_EQ(contrasts[2].weight, Eigen::Vector3d(0.0, 1.0, 1.0));
   // A cause is asked with the contrast that it makes, whichever side of it.
-  const std::map<std::string, int> expected = {
-      {"state after", 0}, {"state late", 1}, {"from state after on", 2}, {"before state late", 1}, {"state reference", 2}};
+  const std::map<std::string, int> expected = {{"state after", 0},       {"state late", 1},      {"from state after on", 2},
+                                               {"before state late", 1}, {"state reference", 2}, {"", -1}};
   for (const auto& candidate : e.entries.candidates)
     EXPECT_EQ(diagnosis::contrast_of(*candidate, contrasts), expected.at(candidate->when)) << candidate->key();
 }

@@ -50,6 +50,23 @@ TEST(Mechanism, SoundStiffnessIsFactorised) {
   EXPECT_LT((factor.solve(Eigen::Vector2d(1.0, 0.0)) - Eigen::Vector2d(2.0, 1.0) / 3.0).norm(), 1e-14);
 }
 
+// Oracle: a chain on the ground by springs of 1, the last two parts joined by one of 1e17: by inspection no mechanism, and no
+// digit of the other springs is left beside it in the sum at its ends.
+TEST(Mechanism, VeryStiffElementIsNamedInsteadOfAMechanismElsewhere) {
+  constexpr double stiff = 1e17;
+  Eigen::MatrixXd k = Eigen::MatrixXd::Zero(6, 6);
+  for (Eigen::Index i = 0; i < 6; ++i) {
+    const double above = i == 4 ? stiff : i == 5 ? 0.0 : 1.0, below = i == 5 ? stiff : 1.0;
+    k(i, i) = above + below;
+    if (i > 0) k(i, i - 1) = k(i - 1, i) = -below;
+  }
+  const std::string text = refused(k, labels(6));
+  EXPECT_NE(text.find("very short or very stiff"), std::string::npos) << text;
+  EXPECT_NE(text.find("node 5"), std::string::npos) << text;
+  EXPECT_NE(text.find("node 6"), std::string::npos) << text;
+  EXPECT_EQ(text.find("mechanism"), std::string::npos) << text;
+}
+
 // Oracle: two springs in a row without ground move alike; a third part on its own spring does not.
 TEST(Mechanism, FreeChainIsNamedAndItsNeighbourIsNot) {
   Eigen::MatrixXd k = Eigen::MatrixXd::Zero(3, 3);

@@ -22,6 +22,7 @@ TEST(Corrosion, IsAPowerToTwentyYearsAndALineAfter) {
   steel.coating_life_years = 15.0;
   EXPECT_EQ(steel.loss_m(10.0), 0.0);
   EXPECT_NEAR(steel.loss_m(16.0), 50e-6, 1e-18);
+  for (const double years : {16.0, 35.0, 80.0}) EXPECT_NEAR(steel.years_until(steel.loss_m(years)), years, 1e-9);
 }
 
 TEST(Corrosion, AWallEatenThroughIsRefused) {

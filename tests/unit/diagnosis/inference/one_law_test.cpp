@@ -147,13 +147,5 @@ TEST(OneLaw, AnAbsentClassIsNotThere) {
   EXPECT_NEAR(with.log_evidence, without.log_evidence, 1e-9);
 }
 
-TEST(OneLaw, PrecisionIsTheInverseOfSigma) {
-  const LawRows rows(9, 0.5, 1.0, 0.0);
-  const OneLaw law(rows.system);
-  const MatrixXd sigma = rows.system.sigma + 0.25 * rows.system.classes[0] * rows.system.classes[0].transpose();
-  const MatrixXd precision = law.precision(law.at(Eigen::Vector2d(0.5, 0.0)));
-  EXPECT_LT((precision * sigma - MatrixXd::Identity(60, 60)).cwiseAbs().maxCoeff(), 1e-9);
-}
-
 }  // namespace
 }  // namespace twindeck::tests

@@ -1,0 +1,1 @@
+"""Tables of a study as one workbook of Excel (.xlsx)."""

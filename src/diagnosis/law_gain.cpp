@@ -1,0 +1,91 @@
+#include "diagnosis/law_gain.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+
+#include "core/error.hpp"
+#include "diagnosis/mode_blocks.hpp"
+#include "linalg/dense.hpp"
+
+namespace twindeck::diagnosis {
+
+namespace {
+
+using Eigen::Index;
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+constexpr double kGuarded = 15.0;  // nats of the leader: accounts whose predictions are weighed
+
+/// Sigma^-1 at an account's scales; linear magnitudes are unknowns as wide as their range.
+std::shared_ptr<const Precision> precision_at(const LawSystem& system, const VectorXd& tau, const MatrixXd& further) {
+  MatrixXd sigma = system.sigma + linalg::product(further, further.transpose());
+  for (std::size_t c = 0; c < system.classes.size(); ++c)
+    if (const double t = tau[static_cast<Index>(c)]; t > 0.0)
+      sigma += t * t * linalg::product(system.classes[c], system.classes[c].transpose());
+  const MatrixXd lower = linalg::cholesky_factor(std::move(sigma));
+  TWINDECK_ASSERT(lower.size() > 0);
+  auto out = std::make_shared<Precision>();
+  out->matrix = linalg::inverse_of_factored(lower);
+  out->log_determinant = 2.0 * lower.diagonal().array().log().sum();
+  return out;
+}
+
+/// An account as a law of the rows, its weight from all rows being the account's own.
+Explanation explanation_by_law(const LawSearch& search, const LawAccount& account) {
+  const LawHypothesis& h = account.hypothesis;
+  const LawSystem& system = account.refined() ? *account.system : search.system;
+  const VectorXd deviation = (h.high - h.low) / std::sqrt(12.0);
+  Explanation out{precision_at(system, account.evidence.tau, h.slopes * deviation.asDiagonal()), h.left, h.log_weight};
+  if (h.slopes.cols() > 0) out.left.colwise() -= h.slopes * (0.5 * (h.high + h.low));
+  std::vector<double> terms;
+  for (Index k = 0; k < out.left.cols(); ++k)
+    terms.push_back(out.log_weight[k] -
+                    0.5 * (out.left.col(k).dot(out.precision->matrix * out.left.col(k)) + out.precision->log_determinant));
+  out.log_weight.array() += account.log_weight - log_sum(terms);
+  return out;
+}
+
+}  // namespace
+
+const LawAccount* leading_model_error(const LawSearch& search) {
+  if (search.model_errors.empty() || search.model_errors.front().log_weight < search.none.log_evidence) return nullptr;
+  return &search.model_errors.front();
+}
+
+PredictiveGain gain_by_law(const LawSetting& setting, const LawSearch& search, int bootstrap, std::uint64_t seed) {
+  LawAccount nothing;
+  nothing.evidence = search.none;
+  nothing.log_weight = search.none.log_evidence;
+  nothing.hypothesis = {search.system.residual, VectorXd::Zero(1), MatrixXd(search.system.residual.size(), 0), {}, {}, {}};
+  if (const LawAccount* error = leading_model_error(search); error != nullptr && error->scored) nothing = *error;
+  std::vector<Explanation> entries;
+  for (const LawAccount& account : search.accounts)
+    if (account.scored && account.log_weight > search.accounts.front().log_weight - kGuarded)
+      entries.push_back(explanation_by_law(search, account));
+  return gain_of_odds(mode_blocks(setting.plain, search.base), explanation_by_law(search, nothing), entries, bootstrap, seed);
+}
+
+bool each_cause_predicts(const LawSetting& setting, const LawSearch& search, const LawAccount& set, int bootstrap,
+                         std::uint64_t seed) {
+  const auto is_member = [&](int m) { return std::find(set.members.begin(), set.members.end(), m) != set.members.end(); };
+  const LawAccount* fewer = nullptr;
+  for (const auto* accounts : {&search.accounts, &search.model_errors})
+    for (const LawAccount& account : *accounts)
+      if (account.scored && account.members.size() < set.members.size() &&
+          (fewer == nullptr || account.log_weight > fewer->log_weight) &&
+          std::all_of(account.members.begin(), account.members.end(), is_member))
+        fewer = &account;
+  if (!set.scored || fewer == nullptr) return true;
+  const bool of_channels = std::all_of(set.members.begin(), set.members.end(), [&](int m) {
+    return is_of_a_channel(*search.entries[static_cast<std::size_t>(m)].candidate) ||
+           std::find(fewer->members.begin(), fewer->members.end(), m) != fewer->members.end();
+  });
+  if (of_channels) return true;
+  const PredictiveGain gain = gain_of_odds(mode_blocks(setting.plain, search.base), explanation_by_law(search, *fewer),
+                                           {explanation_by_law(search, set)}, bootstrap, seed);
+  return gain.blocks.empty() || gain.low > 0.0;
+}
+
+}  // namespace twindeck::diagnosis
