@@ -77,8 +77,8 @@ struct Assembly {
     for (std::size_t j = 0; j < map.nuisances().size(); ++j) {
       const Nuisance& v = map.nuisances()[j];
       const double amount = v.deviation * x[static_cast<Index>(j)];
-      if (v.kind == Nuisance::Kind::element_stiffness) add(stiffness, amount, place("elements", v.index).stiffness);
-      if (v.kind == Nuisance::Kind::element_mass) add(mass, amount, place("elements", v.index).mass);
+      if (v.kind == Nuisance::Kind::element_stiffness) add(stiffness, amount, place("zones", v.index).stiffness);
+      if (v.kind == Nuisance::Kind::element_mass) add(mass, amount, place("zones", v.index).mass);
       if (v.kind == Nuisance::Kind::node_mass) add(mass, amount, place("nodes", v.index).mass);
       if (v.kind == Nuisance::Kind::stay) add(stiffness, amount, place("stays", v.index).stiffness);
     }

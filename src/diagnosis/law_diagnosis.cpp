@@ -181,7 +181,7 @@ class ByLaw {
   /// A leading set that leaves more than a part of what changed is no account of it, though nothing else may come nearer.
   void refuse_partial() {
     if (out_.verdict != Verdict::named && out_.verdict != Verdict::ambiguous) return;
-    const double left = left_of_change(search_, search_.accounts.front());
+    const double left = left_of_change(search_.accounts.front());
     if (!(left > kMostLeft)) return;
     out_.verdict = without_a_cause();
     reason_ = fmt::format("the best cause leaves {:.0f} % of what changed", 100.0 * left);

@@ -225,7 +225,7 @@ void look_beside_leader(const LawSetting& setting, LawSearch& search) {
     const auto best = std::find_if(search.accounts.begin(), search.accounts.end(),
                                    [&](const LawAccount& a) { return a.members.size() == size && a.refined(); });
     const bool leads = best == search.accounts.begin();
-    if (best == search.accounts.end() || (size > 1 && !leads && left_of_change(search, search.accounts.front()) < kMostLeft))
+    if (best == search.accounts.end() || (size > 1 && !leads && left_of_change(search.accounts.front()) < kMostLeft))
       return;
     const LawAccount leader = *best;
     std::vector<LawAccount> sets = sets_beside(setting, search, leader);
@@ -287,13 +287,11 @@ bool is_model_error(const LawSetting& setting, const LawEntry& entry) {
   return entry.contrast < 0 && !is_of_a_channel(*entry.candidate) && states_of(setting.plain.map().features()).size() > 1;
 }
 
-double left_of_change(const LawSearch& search, const LawAccount& account) {
-  double most = 0.0;
-  for (std::size_t c = 0; c < search.something_else.size(); ++c) {
-    const auto at = static_cast<Index>(kFirstContrast) + static_cast<Index>(c);
-    if (account.evidence.tau[at] > 0.0) most = std::max(most, account.evidence.tau[at] / search.something_else[c].tau[at]);
-  }
-  return most;
+double left_of_change(const LawAccount& account) {
+  double left = 0.0;
+  for (Index c = kFirstContrast; c < account.evidence.tau.size(); ++c)
+    left = std::max(left, kUnitOfClasses * account.evidence.tau[c]);
+  return left > 0.0 ? left / std::hypot(left, account.effect) : 0.0;
 }
 
 LawSearch search_by_law(const LawSetting& setting, const Fit& base) {

@@ -63,10 +63,10 @@ struct LawSearch {
   std::vector<LawAccount> model_errors;
 };
 
-/// Most that an account may leave of what changed, RMS: one that leaves more is at most a part of it.
-constexpr double kMostLeft = 1.0 / 3.0;
-/// Scale of what an account leaves over, as a part of that of something else without it: the largest of its contrasts.
-[[nodiscard]] double left_of_change(const LawSearch& search, const LawAccount& account);
+/// Most that an account may leave of what changed, RMS: with more it explains less than three quarters of the variance.
+constexpr double kMostLeft = 0.5;
+/// What an account leaves over in the frequencies, RMS, as a part of that and its effect together: the largest of its contrasts.
+[[nodiscard]] double left_of_change(const LawAccount& account);
 
 [[nodiscard]] LawSearch search_by_law(const LawSetting& setting, const Fit& base);
 

@@ -168,7 +168,7 @@ Bench make_bench() {
   options.max_zones = 16;
   options.max_nodes = 12;
   bench.diagnosing = make_side(2, bench.channels, options);
-  options.zone_centres = positions(bench.diagnosing.places.sets.at("elements"));
+  options.zone_centres = positions(bench.diagnosing.places.sets.at("zones"));
   options.node_positions = positions(bench.diagnosing.places.sets.at("nodes"));
   bench.truth = make_side(4, bench.channels, options);
   bench.rows = campaign(bench);

@@ -170,7 +170,7 @@ void FeatureMap::list_nuisances(const ScatterOptions& scatter) {
     if (found == model_.sets.end()) return;
     for (std::size_t i = 0; i < found->second.size(); ++i) use(static_cast<int>(i), found->second[i]);
   };
-  each("elements", [&](int i, const ReducedPlace& p) {
+  each("zones", [&](int i, const ReducedPlace& p) {
     add(Nuisance::Kind::element_stiffness, i, p.id + " stiffness", 0.0, scatter.fine * scatter.element_stiffness);
     add(Nuisance::Kind::element_mass, i, p.id + " mass", 0.0, scatter.fine * scatter.element_mass);
   });
@@ -250,8 +250,8 @@ FeatureMap::Base FeatureMap::base(const Eigen::VectorXd& x) const {
     const auto place = [&](const char* set) -> const ReducedPlace& {
       return model_.sets.at(set)[static_cast<std::size_t>(v.index)];
     };
-    if (v.kind == Nuisance::Kind::element_stiffness) base.stiffness_parts.emplace_back(amount, &place("elements").stiffness);
-    if (v.kind == Nuisance::Kind::element_mass) base.mass_parts.emplace_back(amount, &place("elements").mass);
+    if (v.kind == Nuisance::Kind::element_stiffness) base.stiffness_parts.emplace_back(amount, &place("zones").stiffness);
+    if (v.kind == Nuisance::Kind::element_mass) base.mass_parts.emplace_back(amount, &place("zones").mass);
     if (v.kind == Nuisance::Kind::node_mass) base.mass_parts.emplace_back(amount, &place("nodes").mass);
     if (v.kind == Nuisance::Kind::stay) base.stiffness_parts.emplace_back(amount, &place("stays").stiffness);
   }

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <set>
 
 namespace twindeck::diagnosis {
 
@@ -341,6 +342,13 @@ void Predictor::predict_stays() {
   }
 }
 
+void Predictor::differentiate_paired() {
+  std::map<SolvedState*, std::set<Index>> paired;
+  for (std::size_t m = 0; m < map_.modes_.size(); ++m)
+    if (out_.paired[m] >= 0) paired[&solved(map_.modes_[m].condition)].insert(out_.paired[m]);
+  for (const auto& [state, modes] : paired) differentiate_modes(*state, {modes.begin(), modes.end()});
+}
+
 Prediction Predictor::run() {
   const auto n = static_cast<Index>(map_.features().rows.size());
   const std::size_t modes = map_.modes_.size();
@@ -373,6 +381,7 @@ Prediction Predictor::run() {
       known->push_back(condition);
   }
   for (const auto& group : alike) pair(group);
+  if (with_jacobian_) differentiate_paired();
   for (std::size_t m = 0; m < modes; ++m) predict_mode(map_.modes_[m], m);
   out_.valid = modes == 0 || std::any_of(out_.paired.begin(), out_.paired.end(), [](int mode) { return mode >= 0; });
   if (!out_.valid) return out_;

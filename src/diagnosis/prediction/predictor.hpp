@@ -124,6 +124,10 @@ class Predictor {
   /// Stiffness and mass without causes, in some of the reduced model's coordinates.
   [[nodiscard]] const std::pair<Eigen::MatrixXd, Eigen::MatrixXd>& matrices(const std::vector<int>& columns) const;
   [[nodiscard]] const ModeDerivative& derivative(SolvedState& solved, Eigen::Index mode);
+  /// Derivatives of some modes, where they are not known yet: each changed matrix is read once for all of them.
+  void differentiate_modes(SolvedState& solved, std::vector<Eigen::Index> modes) const;
+  /// Those of every mode that was paired with a measured one.
+  void differentiate_paired();
   /// Changes of a state's stiffness or mass times each column of x, those that causes share with a parameter included
   /// (size × n_columns n_changes).
   [[nodiscard]] Eigen::MatrixXd changed(const SolvedState& state, bool mass, const Eigen::MatrixXd& x) const;

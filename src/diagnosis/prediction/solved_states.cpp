@@ -169,9 +169,9 @@ const StateStore::Changes& Predictor::changes(const SolvedState& state) const {
       for (const auto& term : model.mass)
         if (const double a = term.coefficient.derivative(base_.theta, v.index); a != 0.0) add(dm, v.deviation * a, term.matrix);
     } else if (v.kind == Nuisance::Kind::element_stiffness) {
-      add(dk, v.deviation, place("elements").stiffness);
+      add(dk, v.deviation, place("zones").stiffness);
     } else if (v.kind == Nuisance::Kind::element_mass) {
-      add(dm, v.deviation, place("elements").mass);
+      add(dm, v.deviation, place("zones").mass);
     } else if (v.kind == Nuisance::Kind::node_mass) {
       add(dm, v.deviation, place("nodes").mass);
     } else if (v.kind == Nuisance::Kind::stay) {
@@ -187,25 +187,33 @@ const StateStore::Changes& Predictor::changes(const SolvedState& state) const {
 }
 
 const ModeDerivative& Predictor::derivative(SolvedState& solved, Index mode) {
-  const auto known = solved.derivatives.find(mode);
-  if (known != solved.derivatives.end()) return known->second;
-  const StateStore::Changes& change = changes(solved);
-  const Eigen::VectorXcd phi = solved.modes.shapes.col(mode);
-  const std::complex<double> square = solved.modes.s[mode] * solved.modes.s[mode];
-  MatrixXd parts(phi.size(), 2);  // real, imaginary
-  parts << phi.real(), phi.imag();
+  if (!solved.derivatives.contains(mode)) differentiate_modes(solved, {mode});
+  return solved.derivatives.at(mode);
+}
+
+void Predictor::differentiate_modes(SolvedState& solved, std::vector<Index> modes) const {
+  std::erase_if(modes, [&](Index mode) { return solved.derivatives.contains(mode); });
+  if (modes.empty()) return;
+  const auto n = solved.modes.shapes.rows(), count = std::ssize(modes);
+  MatrixXd parts(n, 2 * count);  // real parts, imaginary parts
+  parts << solved.modes.shapes(Eigen::all, modes).real(), solved.modes.shapes(Eigen::all, modes).imag();
   const MatrixXd stiffness = changed(solved, false, parts), mass = changed(solved, true, parts);
-  const auto changes = std::ssize(change.position);
-  Eigen::MatrixXcd force(phi.size(), changes);
-  force.real() = -stiffness.leftCols(changes);
-  force.imag() = -stiffness.rightCols(changes);
-  Eigen::MatrixXcd inertia(phi.size(), changes);
-  inertia.real() = mass.leftCols(changes);
-  inertia.imag() = mass.rightCols(changes);
-  force -= square * inertia;
-  ModeDerivative found = differentiate(solved.state, solved.modes, mode, force);
-  found.along = along_the_shape(solved.state, solved.modes, mode, found.s, inertia);
-  return solved.derivatives.emplace(mode, std::move(found)).first->second;
+  const auto changes = std::ssize(this->changes(solved).position);
+  for (Index k = 0; k < count; ++k) {
+    const Index mode = modes[static_cast<std::size_t>(k)];
+    const auto of_mode = [&](const MatrixXd& product) {
+      Eigen::MatrixXcd out(n, changes);
+      out.real() = product.middleCols(k * changes, changes);
+      out.imag() = product.middleCols((count + k) * changes, changes);
+      return out;
+    };
+    const std::complex<double> square = solved.modes.s[mode] * solved.modes.s[mode];
+    const Eigen::MatrixXcd inertia = of_mode(mass);
+    const Eigen::MatrixXcd force = -of_mode(stiffness) - square * inertia;
+    ModeDerivative found = differentiate(solved.state, solved.modes, mode, force);
+    found.along = along_the_shape(solved.state, solved.modes, mode, found.s, inertia);
+    solved.derivatives.emplace(mode, std::move(found));
+  }
 }
 
 MatrixXd Predictor::changed(const SolvedState& state, bool mass, const MatrixXd& x) const {
@@ -230,20 +238,24 @@ MatrixXd Predictor::changed(const SolvedState& state, bool mass, const MatrixXd&
 
 MatrixXd Predictor::times(const std::vector<int>& columns, const std::vector<MatrixChange>& changes, const MatrixXd& x) const {
   const auto count = std::ssize(changes), n = std::ssize(columns);
-  MatrixXd out = MatrixXd::Zero(x.rows(), count * x.cols()), own, motion;
-  for (Index p = 0; p < x.cols(); ++p) {
-    if (x.col(p).isZero(0.0)) continue;
-    for (Index j = 0; j < count; ++j) {
-      const MatrixChange& change = changes[static_cast<std::size_t>(j)];
-      auto here = out.col(p * count + j);
-      if (change.dense.size() > 0) here = change.dense * x.col(p);
-      if (change.local == nullptr) continue;
+  MatrixXd out = MatrixXd::Zero(x.rows(), count * x.cols());
+  std::vector<Index> moving;  // undamped modes have no imaginary part
+  for (Index p = 0; p < x.cols(); ++p)
+    if (!x.col(p).isZero(0.0)) moving.push_back(p);
+  const MatrixXd here = x(Eigen::all, moving);
+  MatrixXd own, motion, product(x.rows(), here.cols());
+  for (Index j = 0; j < count; ++j) {
+    const MatrixChange& change = changes[static_cast<std::size_t>(j)];
+    product.setZero();
+    if (change.dense.size() > 0) product.noalias() = change.dense * here;
+    if (change.local != nullptr) {
       if (motion.size() == 0) {
         own = change.local->basis().own(columns);
-        motion = change.local->basis().motion(own, x.topRows(n));
+        motion = change.local->basis().motion(own, here.topRows(n));
       }
-      change.local->add_product(change.amount, own, motion.col(p), here.head(n));
+      change.local->add_product(change.amount, own, motion, product.topRows(n));
     }
+    for (std::size_t k = 0; k < moving.size(); ++k) out.col(moving[k] * count + j) = product.col(static_cast<Index>(k));
   }
   return out;
 }

@@ -89,6 +89,7 @@ void ElementPlaces::add_zones(const std::vector<int>& centres, Places& places, s
   if (points.empty())
     for (const int c : centres) points.push_back(centroids_[static_cast<std::size_t>(c)]);
   std::map<std::pair<std::size_t, std::string>, std::vector<std::size_t>> zones;  // by centre and group: positions of elements
+  std::vector<std::vector<int>> whole(points.size());  // elements of each zone, whatever their groups
   std::vector<double> least(points.size(), std::numeric_limits<double>::infinity());
   const auto off = [&](std::size_t centre, std::size_t i) { return (centroids_[i] - points[centre]).squaredNorm(); };
   for (std::size_t i = 0; i < candidates_.size(); ++i) {
@@ -96,7 +97,15 @@ void ElementPlaces::add_zones(const std::vector<int>& centres, Places& places, s
     const std::size_t centre =
         centres.size() == candidates_.size() ? i : static_cast<std::size_t>(nearest(points, centroids_[i]));
     zones[{centre, model_.elements[static_cast<std::size_t>(candidates_[i])].group}].push_back(i);
+    whole[centre].push_back(candidates_[i]);
     least[centre] = std::min(least[centre], off(centre, i));
+  }
+  for (std::size_t z = 0; z < whole.size(); ++z) {
+    if (whole[z].empty()) continue;
+    Place zone = part(whole[z]);
+    zone.x_m = points[z];
+    zone.id = "zone:" + std::to_string(model_.elements[static_cast<std::size_t>(whole[z].front())].id);
+    places.sets["zones"].push_back(std::move(zone));
   }
   for (const auto& [key, members] : zones) {
     const std::size_t centre = key.first;

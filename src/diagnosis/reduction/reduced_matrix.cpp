@@ -132,11 +132,11 @@ void ReducedMatrix::add_image(double amount, const MatrixXd& motion, MatrixXd& f
     }
 }
 
-void ReducedMatrix::add_product(double amount, const MatrixXd& own, const VectorXd& motion, Eigen::Ref<VectorXd> sum) const {
-  const VectorXd image = amount * (s_.block() * VectorXd(motion(s_.dofs())));
+void ReducedMatrix::add_product(double amount, const MatrixXd& own, const MatrixXd& motion, Eigen::Ref<MatrixXd> sum) const {
+  const MatrixXd image = amount * (s_.block() * MatrixXd(motion(s_.dofs(), Eigen::all)));
   const Index c = basis_->common();
-  sum.head(c).noalias() += common_at_dofs_ * image;
-  for (Index k = 0; k < own.cols(); ++k) sum[c + k] += own.col(k)(s_.dofs()).dot(image);
+  sum.topRows(c).noalias() += common_at_dofs_ * image;
+  if (own.cols() > 0) sum.middleRows(c, own.cols()).noalias() += MatrixXd(own(s_.dofs(), Eigen::all)).transpose() * image;
 }
 
 }  // namespace twindeck::diagnosis

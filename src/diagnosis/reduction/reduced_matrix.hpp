@@ -31,9 +31,9 @@ class ReducedMatrix {
   [[nodiscard]] bool is_local() const { return local_; }
   /// force += amount S motion, over all degrees of freedom (n × m).
   void add_image(double amount, const Eigen::MatrixXd& motion, Eigen::MatrixXd& force) const;
-  /// sum += amount V_c' S motion (n_columns × 1). @param own (n × n_own) vectors behind the common ones @param motion (n)
-  void add_product(double amount, const Eigen::MatrixXd& own, const Eigen::VectorXd& motion,
-                   Eigen::Ref<Eigen::VectorXd> sum) const;
+  /// sum += amount V_c' S motion (n_columns × m). @param own (n × n_own) vectors behind the common ones @param motion (n × m)
+  void add_product(double amount, const Eigen::MatrixXd& own, const Eigen::MatrixXd& motion,
+                   Eigen::Ref<Eigen::MatrixXd> sum) const;
   /// Projects the groups that the basis has got since.
   void follow_basis();
   /// Keeps what is read of the location's own vectors. @param group  of the basis

@@ -34,7 +34,7 @@ Symmetric symmetric_of(const fe::ParametricSystem& system, const fe::Term& term)
 }
 
 /// Sets whose matrices are scattered, so that every state needs them in the coordinates of its causes.
-bool is_scattered(const std::string& set) { return set == "elements" || set == "nodes" || set == "stays"; }
+bool is_scattered(const std::string& set) { return set == "zones" || set == "nodes" || set == "stays"; }
 
 /// What goes with parameters otherwise than the rest of a place is used where the place is, never in every state.
 ParameterLaw<ReducedMatrix> reduced(const ParameterLaw<CompactMatrix>& law, const std::shared_ptr<const ReducedBasis>& basis) {
@@ -164,7 +164,7 @@ ReducedModel::ReducedModel(const Structure& structure, const Places& places, con
   std::vector<Owner> owners;
   for (const auto& [set, list] : places.sets)
     for (std::size_t i = 0; i < list.size(); ++i) {
-      const bool served = set == "dampers" || (set == "global" && list[i].directions.size() == 0);  // by the common vectors
+      const bool served = set == "dampers" || set == "zones" || (set == "global" && list[i].directions.size() == 0);  // by the common vectors
       // A support may go to any of its stations, each with a static response of its own.
       const int wanted = set == "support_moves" ? options.vectors_per_move : options.vectors_per_place;
       owners.push_back({&list[i], &sets.at(set)[i], served ? 0 : wanted});

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <numbers>
 #include <span>
 #include <utility>
 
@@ -69,11 +70,8 @@ class CommonBasis {
   };
   /// The strongest directions of a block in K beyond the basis, at most `count`, and none of less energy than `least`.
   [[nodiscard]] Held strongest(Held block, int count, double least = 0.0) const {
-    for (int pass = 0; pass < 2; ++pass) {
-      const MatrixXd part = linalg::product(images_, block.vectors, true);
-      linalg::subtract_product(vectors_, part, block.vectors);
-      linalg::subtract_product(images_, part, block.loads);
-    }
+    block.vectors = beyond(std::move(block.vectors));
+    block.loads = stiffness_ * block.vectors;
     if (block.vectors.cols() <= count) return block;
     if (count < 1) return {block.vectors.leftCols(0), block.loads.leftCols(0)};
     const MatrixXd gram = linalg::product(block.vectors, block.loads, true);
@@ -85,8 +83,13 @@ class CommonBasis {
   [[nodiscard]] const MatrixXd& vectors() const { return vectors_; }
 
  private:
+  /// Once where no column loses much by it, else twice (Daniel et al. 1976): each time reads the whole basis twice.
   [[nodiscard]] MatrixXd beyond(MatrixXd block) const {
-    for (int pass = 0; pass < 2; ++pass) linalg::subtract_product(vectors_, linalg::product(images_, block, true), block);
+    const Eigen::VectorXd before = block.colwise().norm();
+    for (int pass = 0; pass < 2; ++pass) {
+      linalg::subtract_product(vectors_, linalg::product(images_, block, true), block);
+      if ((block.colwise().norm().transpose().array() >= std::numbers::sqrt2 / 2.0 * before.array()).all()) break;
+    }
     return block;
   }
 
@@ -158,8 +161,8 @@ MatrixXd corrections(const CommonBasis& basis, const linalg::Cholesky& factor, c
       return MatrixXd(0.25 * range * change);
     });
   }
-  if (const auto elements = places.sets.find("elements"); elements != places.sets.end() && options.element_change > 0.0)
-    for (const Place& place : elements->second) {
+  if (const auto zones = places.sets.find("zones"); zones != places.sets.end() && options.element_change > 0.0)
+    for (const Place& place : zones->second) {
       if (place.stiffness.size() > 0) changes.emplace_back([&] { return place.stiffness.times(options.element_change, low); });
       if (place.mass.size() > 0)
         changes.emplace_back([&] { return MatrixXd(place.mass.times(options.element_change, low) * squares.asDiagonal()); });
@@ -182,8 +185,8 @@ MatrixXd answer_corrections(const CommonBasis& basis, const linalg::Cholesky& fa
         return MatrixXd(0.25 * range * system.stiffness_derivative_times(theta, static_cast<int>(p), answers));
       });
   }
-  if (const auto elements = places.sets.find("elements"); elements != places.sets.end() && options.element_change > 0.0)
-    for (const Place& place : elements->second)
+  if (const auto zones = places.sets.find("zones"); zones != places.sets.end() && options.element_change > 0.0)
+    for (const Place& place : zones->second)
       if (place.stiffness.size() > 0)
         changes.emplace_back([&] { return place.stiffness.times(options.element_change, answers); });
   return strongest_of(basis, factor, changes, Eigen::VectorXd::Ones(answers.cols()), options);

@@ -236,7 +236,7 @@ TEST(FullCheck, ASupportThatMovesHoldsWhereItStands) {
 // Each unknown of the scatter moves the matrix of its place by x of its deviations.
 TEST(FullCheck, HasTheScatterOfTheFit) {
   const TwoNodes nodes([](diagnosis::Places& places) {
-    places.sets["elements"] = {on_dof("element:1", 0, 0, 7e5, 300.0), on_dof("element:2", 1, 1, 9e5, 400.0)};
+    places.sets["zones"] = {on_dof("element:1", 0, 0, 7e5, 300.0), on_dof("element:2", 1, 1, 9e5, 400.0)};
     places.sets["stays"] = {on_dof("stay:A", 1, 0, 5e5)};
   });
   const diagnosis::FeatureMap map = nodes.model.map();
