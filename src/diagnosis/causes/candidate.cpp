@@ -223,6 +223,11 @@ std::vector<Candidate> locations(const Hypothesis& h, const ReducedModel& model,
     return action.kind == "mass.add" || action.kind == "element.oscillator";
   });
   if (h.set == "nodes" && carries) leave_out_held_nodes(model, found);
+  // A spring to the ground stands where the model has none: beside a bearing it is the bearing's stiffness.
+  const bool holds =
+      std::any_of(h.actions.begin(), h.actions.end(), [](const ActionSpec& action) { return action.kind == "element.spring"; });
+  if (h.set == "nodes" && holds)
+    std::erase_if(found, [](const Candidate& candidate) { return candidate.places[0]->attributes.contains("supported"); });
   if (h.set == "stays")
     for (Candidate& candidate : found) candidate.own = own_frequency(candidate, features);
   std::erase_if(found, [&](const Candidate& candidate) { return !can_act(candidate, model) || !resolvable(candidate); });

@@ -19,6 +19,8 @@ namespace {
 
 using Eigen::Index;
 
+constexpr double kMostlyVertical = 0.7;  // [-] vertical part of a bearing's direction
+
 fe::ElementMatrix element_stiffness(const fe::Model& model, std::size_t e, const std::vector<std::uint8_t>& straight_sides) {
   const fe::Element& element = model.elements[e];
   switch (element.type) {
@@ -316,13 +318,19 @@ void ElementPlaces::add_nodes(const std::vector<int>& chosen, Places& places) co
     Eigen::SparseMatrix<double> directions(expansion_.rows(), 3);
     directions.setFromTriplets(entries.begin(), entries.end());
     const fe::Node& at = model_.nodes[static_cast<std::size_t>(node)];
-    places.sets["nodes"].push_back({"node:" + std::to_string(at.id),
-                                    at.x_m,
-                                    {},
-                                    {},
-                                    Eigen::SparseMatrix<double>(expansion_.transpose() * directions),
-                                    {},
-                                    {}});
+    Place place{"node:" + std::to_string(at.id),
+                at.x_m,
+                {},
+                {},
+                Eigen::SparseMatrix<double>(expansion_.transpose() * directions),
+                {},
+                {}};
+    const bool supported = std::any_of(model_.springs.begin(), model_.springs.end(), [&](const fe::Spring& spring) {
+      return spring.node == node && spring.node2 < 0 && !spring.rotation && !spring.is_damper() &&
+             std::abs(spring.direction.normalized().z()) > kMostlyVertical && fe::carries_stiffness(spring);
+    });
+    if (supported) place.attributes["supported"] = 1.0;
+    places.sets["nodes"].push_back(std::move(place));
   }
 }
 

@@ -273,6 +273,19 @@ TEST(ElementZones, AddUpToTheStructureWithoutItsStays) {
   EXPECT_LT((second->x_m - Vector3d(12.0, 0.0, 0.0)).norm(), 1e-12);
 }
 
+// An upright spring to the ground is a bearing; one along the deck leaves the node free to be held.
+TEST(NodePlaces, KnowTheBearingBelowThem) {
+  fe::Model model = beam_with_stay();
+  model.springs = {spring_at("pad_z", "pad", 1, Vector3d::UnitZ(), 5e6), spring_at("stop", "stop", 2, Vector3d::UnitX(), 2e6)};
+  const PlacesOf found(model);
+  const auto supported = [&](int node) {
+    return found.place("nodes", "node:" + std::to_string(model.nodes[static_cast<std::size_t>(node)].id))
+        ->attributes.contains("supported");
+  };
+  EXPECT_TRUE(supported(1));
+  EXPECT_FALSE(supported(2));
+}
+
 // A slab is the deck where there is one: 10 m x 4 m x 0.1 m of 2400 kg/m3; its beams are not.
 TEST(GlobalPlace, HasTheMassOfTheSlabs) {
   fe::Model model = fe::test::with_steel();
