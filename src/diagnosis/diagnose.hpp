@@ -12,6 +12,7 @@
 #include "diagnosis/inference/one_verdict.hpp"
 #include "diagnosis/intervals.hpp"
 #include "diagnosis/location_map.hpp"
+#include "diagnosis/progress.hpp"
 #include "diagnosis/residual_test.hpp"
 #include "diagnosis/scatter_scales.hpp"
 
@@ -23,6 +24,7 @@ struct DiagnoseOptions {
   double static_odds = -13.0;
   int most_causes = 3;   ///< in a set; 0: the answer is told, and the model stays as it is
   int bootstrap = 2000;  ///< resamples of held-out blocks
+  Progress progress = [](const char*, int, int) {};
 };
 
 /// Another member of a cause's cluster.

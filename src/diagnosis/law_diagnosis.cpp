@@ -416,7 +416,7 @@ Diagnosis diagnose(const Inference& whole, const DiagnoseOptions& options, std::
   const std::vector<Contrast> contrasts = contrasts_of(map.features());
   const FeatureMap informed_map = with_form_error(map, prior, nominal.g, level_of_fits(whole, contrasts, prior, nominal.g));
   const Inference informed(informed_map, plain.candidates());
-  const LawSetting setting{plain, informed, contrasts, options.static_odds};
+  const LawSetting setting{plain, informed, contrasts, options.static_odds, options.progress};
   out.before = first_fit(informed);
   if (!out.before.made()) {
     out.message += ": " + out.before.map.status.message;

@@ -186,12 +186,15 @@ std::vector<bool> acting_conditions(const LawSetting& setting, const Candidate& 
 void collect_entries(const LawSetting& setting, LawSearch& search) {
   const auto& candidates = setting.plain.candidates();
   std::vector<LawEntry> all(candidates.size());
-  parallel_for(candidates.size(), [&](std::size_t i) {
-    all[i].candidate = candidates[i].get();
-    all[i].contrasts = contrasts_of(*candidates[i], setting.contrasts);
-    all[i].contrast = all[i].contrasts.empty() ? -1 : all[i].contrasts.front();
-    all[i].tried = setting.informed.tried(search.base, *candidates[i]);
-  });
+  parallel_for_told(
+      candidates.size(),
+      [&](std::size_t i) {
+        all[i].candidate = candidates[i].get();
+        all[i].contrasts = contrasts_of(*candidates[i], setting.contrasts);
+        all[i].contrast = all[i].contrasts.empty() ? -1 : all[i].contrasts.front();
+        all[i].tried = setting.informed.tried(search.base, *candidates[i]);
+      },
+      [&](int done, int of) { setting.progress("entries tried", done, of); });
   std::map<std::pair<bool, int>, double> share;  // of a class of causes: channels, or by contrast
   const auto class_of = [](const LawEntry& e) { return std::pair(is_of_a_channel(*e.candidate), e.contrast); };
   std::vector<VectorXd> columns;

@@ -225,12 +225,13 @@ void look_beside_leader(const LawSetting& setting, LawSearch& search) {
     const auto best = std::find_if(search.accounts.begin(), search.accounts.end(),
                                    [&](const LawAccount& a) { return a.members.size() == size && a.refined(); });
     const bool leads = best == search.accounts.begin();
-    if (best == search.accounts.end() || (size > 1 && !leads && left_of_change(search.accounts.front()) < kMostLeft))
-      return;
+    if (best == search.accounts.end() || (size > 1 && !leads && left_of_change(search.accounts.front()) < kMostLeft)) return;
     const LawAccount leader = *best;
     std::vector<LawAccount> sets = sets_beside(setting, search, leader);
     const VectorXd x = leader.with.map.x.head(static_cast<Index>(setting.plain.map().nuisances().size()));
-    parallel_for(sets.size(), [&](std::size_t i) { refine_by_law(setting, search, sets[i], {x}); });
+    parallel_for_told(
+        sets.size(), [&](std::size_t i) { refine_by_law(setting, search, sets[i], {x}); },
+        [&](int done, int of) { setting.progress("further causes fitted", done, of); });
     for (LawAccount& set : sets) {
       const auto same = std::find_if(search.accounts.begin(), search.accounts.end(), [&](const LawAccount& a) {
         return std::is_permutation(a.members.begin(), a.members.end(), set.members.begin(), set.members.end());
@@ -310,10 +311,13 @@ LawSearch search_by_law(const LawSetting& setting, const Fit& base) {
   for (int round = 0; round < kLeadingRounds && !done.contains(out.accounts.front().members.front()); ++round) {
     const std::vector<LawAccount*> these = leading_accounts(out, done);
     if (these.empty()) break;
-    parallel_for(these.size(), [&](std::size_t i) {
-      refine_by_law(setting, out, *these[i], starts);
-      if (!these[i]->refined()) score_at_base(law, out, *these[i]);
-    });
+    parallel_for_told(
+        these.size(),
+        [&](std::size_t i) {
+          refine_by_law(setting, out, *these[i], starts);
+          if (!these[i]->refined()) score_at_base(law, out, *these[i]);
+        },
+        [&](int done, int of) { setting.progress("causes fitted", done, of); });
     for (const LawAccount* account : these) done.insert(account->members.front());
     sort_accounts(out.accounts);
   }
@@ -325,7 +329,7 @@ LawSearch search_by_law(const LawSetting& setting, const Fit& base) {
         score_at_base(law, out, account);  // the magnitudes that a fit starts at
         if (account.scored) refine_by_law(setting, out, account, starts);
       },
-      sets);
+      setting.progress, sets);
   for (LawAccount& account : sets) out.accounts.push_back(std::move(account));
   sort_accounts(out.accounts);
   look_beside_leader(setting, out);

@@ -6,6 +6,7 @@
 
 #include "diagnosis/inference.hpp"
 #include "diagnosis/law_frame.hpp"
+#include "diagnosis/progress.hpp"
 
 /// Private to src/diagnosis. Evidence of every hypothesis under the one law: nothing but the model's errors, "something else
 /// changed" in each contrast, each entry of the catalogue, and sets of two or three of them.
@@ -18,6 +19,7 @@ struct LawSetting {
   const Inference& informed;
   std::vector<Contrast> contrasts;
   double static_odds;  ///< [nats] prior odds against nothing of all causes that act in all conditions alike, together
+  Progress progress = [](const char*, int, int) {};
 };
 
 /// An entry of the catalogue with what the screen tries of it.
@@ -65,7 +67,8 @@ struct LawSearch {
 
 /// Most that an account may leave of what changed, RMS: with more it explains less than three quarters of the variance.
 constexpr double kMostLeft = 0.5;
-/// What an account leaves over in the frequencies, RMS, as a part of that and its effect together: the largest of its contrasts.
+/// What an account leaves over in the frequencies, RMS, as a part of that and its effect together: the largest of its
+/// contrasts.
 [[nodiscard]] double left_of_change(const LawAccount& account);
 
 [[nodiscard]] LawSearch search_by_law(const LawSetting& setting, const Fit& base);

@@ -148,7 +148,7 @@ std::vector<Promising> larger_sets(const SetScreen& screen, const std::vector<Pr
 }  // namespace
 
 void add_sets(const LawSearch& search, const OneLaw& law, const std::function<void(LawAccount&)>& weigh,
-              std::vector<LawAccount>& found) {
+              const Progress& progress, std::vector<LawAccount>& found) {
   const SetScreen screen(search, law);
   std::vector<Promising> smaller;
   for (std::size_t m = 0; m < screen.size(); ++m) smaller.push_back({{m}, screen.promise({m})});
@@ -160,13 +160,16 @@ void add_sets(const LawSearch& search, const OneLaw& law, const std::function<vo
     keep_best(larger);
     std::erase_if(larger, [&](const Promising& l) { return l.value < most - kPromises; });
     std::vector<LawAccount> accounts(larger.size());
-    parallel_for(larger.size(), [&](std::size_t i) {
-      for (const std::size_t m : larger[i].set) {
-        accounts[i].members.push_back(screen.entry(m));
-        accounts[i].log_prior += search.entries[static_cast<std::size_t>(accounts[i].members.back())].log_prior;
-      }
-      weigh(accounts[i]);
-    });
+    parallel_for_told(
+        larger.size(),
+        [&](std::size_t i) {
+          for (const std::size_t m : larger[i].set) {
+            accounts[i].members.push_back(screen.entry(m));
+            accounts[i].log_prior += search.entries[static_cast<std::size_t>(accounts[i].members.back())].log_prior;
+          }
+          weigh(accounts[i]);
+        },
+        [&](int done, int of) { progress(size == 2 ? "pairs of causes fitted" : "sets of three fitted", done, of); });
     std::erase_if(accounts, [](const LawAccount& a) { return !a.scored; });
     double leading = -1e300;
     for (LawAccount& account : accounts) {

@@ -14,6 +14,6 @@ constexpr std::size_t kMostInASet = 3;
 /// base, magnitudes summed over; the most promising are weighed.
 /// @param weigh  gives an account its evidence @param found  takes those that were weighed
 void add_sets(const LawSearch& search, const OneLaw& law, const std::function<void(LawAccount&)>& weigh,
-              std::vector<LawAccount>& found);
+              const Progress& progress, std::vector<LawAccount>& found);
 
 }  // namespace twindeck::diagnosis

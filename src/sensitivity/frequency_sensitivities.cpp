@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <mutex>
 
 #include "core/parallel.hpp"
 #include "dynamics/eigenmodes.hpp"
@@ -103,14 +102,15 @@ Sensitivities frequency_sensitivities(const fe::ParametricSystem& system, const 
   const Eigen::MatrixXd relative = out.relative();
 
   std::vector<Status> of_parameter(static_cast<std::size_t>(n_parameters));
-  std::mutex counting;
-  int done = 0;
-  parallel_for(n_parameters, [&](int p) {
-    of_parameter[static_cast<std::size_t>(p)] =
-        differentiate(system, follower, n_solved, p, central_step(out, relative, p, options), options, out);
-    const std::scoped_lock lock(counting);
-    if (progress) progress(++done, n_parameters);
-  });
+  parallel_for_told(
+      n_parameters,
+      [&](int p) {
+        of_parameter[static_cast<std::size_t>(p)] =
+            differentiate(system, follower, n_solved, p, central_step(out, relative, p, options), options, out);
+      },
+      [&](int done, int of) {
+        if (progress) progress(done, of);
+      });
   for (const Status& status : of_parameter) {
     if (!status.converged && out.status.converged) out.status = status;
   }

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
-#include <mutex>
 #include <utility>
 
 #include "core/parallel.hpp"
@@ -87,13 +86,11 @@ std::vector<SearchEnd> run_starts(const Search& search, const Eigen::MatrixXd& p
                                   const std::function<void(int, int)>& progress) {
   const auto starts = static_cast<int>(points.cols());
   std::vector<SearchEnd> ends(static_cast<std::size_t>(starts));
-  std::mutex counting;
-  int done = 0;
-  parallel_for(starts, [&](int k) {
-    ends[static_cast<std::size_t>(k)] = run_start(search, points.col(k), k);
-    const std::scoped_lock lock(counting);
-    if (progress) progress(++done, starts);
-  });
+  parallel_for_told(
+      starts, [&](int k) { ends[static_cast<std::size_t>(k)] = run_start(search, points.col(k), k); },
+      [&](int done, int of) {
+        if (progress) progress(done, of);
+      });
   return ends;
 }
 

@@ -164,7 +164,8 @@ ReducedModel::ReducedModel(const Structure& structure, const Places& places, con
   std::vector<Owner> owners;
   for (const auto& [set, list] : places.sets)
     for (std::size_t i = 0; i < list.size(); ++i) {
-      const bool served = set == "dampers" || set == "zones" || (set == "global" && list[i].directions.size() == 0);  // by the common vectors
+      const bool served =
+          set == "dampers" || set == "zones" || (set == "global" && list[i].directions.size() == 0);  // by the common vectors
       // A support may go to any of its stations, each with a static response of its own.
       const int wanted = set == "support_moves" ? options.vectors_per_move : options.vectors_per_place;
       owners.push_back({&list[i], &sets.at(set)[i], served ? 0 : wanted});

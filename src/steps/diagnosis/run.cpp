@@ -99,6 +99,7 @@ Status run_diagnosis(const DiagnosisConfig& config, const DiagnosisFiles& files,
   }
   diagnosis::DiagnoseOptions options;
   options.most_causes = static_cast<int>(config.most_causes);
+  options.progress = [&](const char* what, int done, int of) { context.progress(what, done, of); };
   diagnosis::Diagnosis result = diagnosis::diagnose(inference, options, context.seed + 1);
   if (result.before.all.g.size() == 0) return {false, result.message};
   if (inputs.bar_stays) inputs.bar_stays->put_first(result);
