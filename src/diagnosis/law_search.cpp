@@ -317,7 +317,7 @@ LawSearch search_by_law(const LawSetting& setting, const Fit& base) {
           refine_by_law(setting, out, *these[i], starts);
           if (!these[i]->refined()) score_at_base(law, out, *these[i]);
         },
-        [&](int done, int of) { setting.progress("causes fitted", done, of); });
+        [&](int fitted, int of) { setting.progress("causes fitted", fitted, of); });
     for (const LawAccount* account : these) done.insert(account->members.front());
     sort_accounts(out.accounts);
   }
