@@ -1,11 +1,12 @@
 #include "diagnosis/form_base.hpp"
 
 #include <algorithm>
+#include <array>
+#include <cmath>
 #include <limits>
 #include <set>
 
 #include "diagnosis/form_frame.hpp"
-#include "diagnosis/law_frame.hpp"
 
 namespace twindeck::diagnosis {
 
@@ -15,6 +16,11 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
+constexpr std::array<FormLevel, 3> kLevels = {{{0.01, 0.01}, {0.02, 0.03}, {0.03, 0.10}}};
+// chi² over degrees of freedom of the first fit. Up to the first number fits find their place with the least level, and a
+// cause that acts in every condition may be what is left; above it the model is grossly off, and fits stand the level at which
+// the second is met.
+constexpr double kGrossMisfit = 10.0, kLargestMisfit = 2.0;
 constexpr double kAside = 10.0;  // deviation of rows that are set aside: e^10, far beyond any change
 /// Conditions that the first fit is made to.
 std::set<int> plainest_conditions(const FeatureSet& features) {
@@ -64,21 +70,20 @@ Fit fit_without(const Inference& informed, const std::vector<int>& rows) {
   return Inference(map, informed.candidates()).fit({}, {});
 }
 
-/// Form errors that the rows show at a fit, whatever else may have changed; the unit of their classes where that cannot be
-/// told.
-FormLevel level_at(const Inference& whole, const Fit& fit, const std::vector<Contrast>& contrasts) {
-  FormLevel out{kUnitOfClasses, kUnitOfClasses};
-  if (!fit.made()) return out;
-  const LawSystem system = law_system(whole, fit, contrasts);
-  const OneLaw law(system);
-  if (!can_be_weighed(system) || !law.sound()) return out;
-  LawHypothesis all{system.residual, VectorXd::Zero(1), MatrixXd(system.residual.size(), 0), {}, {}, {}};
-  for (std::size_t c = 0; c < system.classes.size(); ++c)
-    if (system.classes[c].cols() > 0) all.active.push_back({static_cast<int>(c), 1.0});
-  const LawEvidence found = law.scored(all, VectorXd::Ones(law.classes()));
-  if (found.tau[kFrequencies] > 0.0) out.frequency *= found.tau[kFrequencies];
-  if (found.tau[kShapes] > 0.0) out.shape *= found.tau[kShapes];
-  return out;
+/// chi² over the degrees of freedom of the fit to the plainest conditions; infinite where none can be made.
+double misfit_of_plainest(const Inference& informed) {
+  const FeatureMap& map = informed.map();
+  const std::set<int> plainest = plainest_conditions(map.features());
+  const std::vector<int> others = rows_outside(map.features(), plainest);
+  const Fit fit = fit_without(informed, others);
+  if (!fit.made()) return std::numeric_limits<double>::infinity();
+  const std::set<int> open(fit.all.open.begin(), fit.all.open.end());
+  int dof = 0;
+  for (std::size_t r = 0; r < map.features().rows.size(); ++r)
+    if (plainest.contains(map.features().rows[r].condition) && !open.contains(static_cast<int>(r))) ++dof;
+  for (const MeasuredMode& mode : map.measured_modes())  // each shape has a free scale
+    if (plainest.contains(mode.condition) && !mode.real_rows.empty() && !open.contains(mode.real_rows.front())) --dof;
+  return fit.chi_squared / std::max(dof, 1);
 }
 
 }  // namespace
@@ -90,12 +95,14 @@ FeatureMap with_form_error(const FeatureMap& plain, const FeatureMap::Base& base
   return out;
 }
 
-FormLevel level_of_fits(const Inference& whole, const std::vector<Contrast>& contrasts, const FeatureMap::Base& prior,
-                        const VectorXd& predicted) {
-  const FeatureMap& map = whole.map();
-  const FormLevel unfitted = level_at(whole, whole.stand(VectorXd::Zero(std::ssize(map.nuisances()))), contrasts);
-  const FeatureMap informed = with_form_error(map, prior, predicted, unfitted);
-  return level_at(whole, first_fit(Inference(informed, whole.candidates())), contrasts);
+FormLevel level_of_fits(const Inference& whole, const FeatureMap::Base& prior, const VectorXd& predicted) {
+  double most = kGrossMisfit;
+  for (const FormLevel& level : kLevels) {
+    const FeatureMap informed = with_form_error(whole.map(), prior, predicted, level);
+    if (misfit_of_plainest(Inference(informed, whole.candidates())) < most) return level;
+    most = kLargestMisfit;
+  }
+  return kLevels.back();
 }
 
 Fit first_fit(const Inference& informed) {

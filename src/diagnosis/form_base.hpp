@@ -14,12 +14,12 @@ struct FormLevel {
 [[nodiscard]] FeatureMap with_form_error(const FeatureMap& plain, const FeatureMap::Base& base,
                                          const Eigen::VectorXd& predicted, const FormLevel& level);
 
-/// The form error that fits stand: as large as the rows show it, first at the model as it stands, then at the fit that this
-/// gives. A fit that stands less than the model is off by bends all parameters towards shapes that no model of its kind has;
-/// one that stands more takes nothing from the rows.
+/// The least of three form errors that fits can stand. Where the model is grossly off in its plainest conditions (chi² above
+/// ten times the degrees of freedom) they stand the least level at which chi² is at most twice the degrees of freedom, else the
+/// largest: a fit that stands less than the model is off by bends all parameters towards shapes that no model of its kind has.
+/// Reference for that rule, the discrepancy principle: Morozov (1966), Soviet Mathematics 7, 414-417.
 /// @param prior, predicted  the model as it stands, its rows
-[[nodiscard]] FormLevel level_of_fits(const Inference& whole, const std::vector<Contrast>& contrasts,
-                                      const FeatureMap::Base& prior, const Eigen::VectorXd& predicted);
+[[nodiscard]] FormLevel level_of_fits(const Inference& whole, const FeatureMap::Base& prior, const Eigen::VectorXd& predicted);
 
 /// The structure as its plainest conditions show it: the first state; where there is one state, the least amplitude, wind and
 /// number of people, no dampers, and the highest temperature, since bearings slip at large amplitudes and freeze in the cold.

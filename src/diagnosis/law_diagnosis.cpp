@@ -414,7 +414,7 @@ Diagnosis diagnose(const Inference& whole, const DiagnoseOptions& options, std::
   if (!nominal.valid) return out;
   const Inference& plain = whole;
   const std::vector<Contrast> contrasts = contrasts_of(map.features());
-  const FeatureMap informed_map = with_form_error(map, prior, nominal.g, level_of_fits(whole, contrasts, prior, nominal.g));
+  const FeatureMap informed_map = with_form_error(map, prior, nominal.g, level_of_fits(whole, prior, nominal.g));
   const Inference informed(informed_map, plain.candidates());
   const LawSetting setting{plain, informed, contrasts, options.static_odds, options.progress};
   out.before = first_fit(informed);

@@ -285,7 +285,10 @@ bool is_same_cause(const LawEntry& a, const LawEntry& b) {
 }
 
 bool is_model_error(const LawSetting& setting, const LawEntry& entry) {
-  return entry.contrast < 0 && !is_of_a_channel(*entry.candidate) && states_of(setting.plain.map().features()).size() > 1;
+  const FeatureSet& features = setting.plain.map().features();
+  return entry.contrast < 0 && !is_of_a_channel(*entry.candidate) && states_of(features).size() > 1 &&
+         std::all_of(features.conditions.begin(), features.conditions.end(),
+                     [&](const Condition& condition) { return entry.candidate->acts_in(condition); });
 }
 
 double left_of_change(const LawAccount& account) {
