@@ -40,7 +40,7 @@ TextLines::TextLines(const std::filesystem::path& file, std::uintmax_t most) : i
     const std::filesystem::path csv = csv_of_spreadsheet(file);
     in_.close();
     in_.open(csv, std::ios::binary);
-    std::filesystem::remove(csv);  // what is open stays readable
+    std::filesystem::remove(csv);  // the open file can still be read
   }
   std::string text(65536, '\0');
   in_.read(text.data(), static_cast<std::streamsize>(text.size()));

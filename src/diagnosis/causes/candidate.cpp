@@ -279,8 +279,8 @@ struct AskedStates {
   std::string when;  ///< as Candidate::when
 };
 
-/// In one state alone or, where there are three and more, from one state on: what was cut stays cut unless it is repaired. In
-/// all states it is an error of the model.
+/// A part may change in one state alone. Of three and more states it may also change from one state on: what was cut stays cut
+/// unless it is repaired. A part that is other in all states is an error of the model.
 std::vector<AskedStates> states_asked(const Hypothesis& h, const std::vector<std::string>& states) {
   if (states.size() < 2 || !is_a_part(h)) return {{}};
   std::vector<AskedStates> out;

@@ -73,9 +73,9 @@ struct Instantiated {
 };
 
 /// Every hypothesis at every location of its set. Where the rows come from several states of the structure, the question is
-/// what changed: a part that is other than modelled is so in all states, in one alone or, of three and more, from one state on,
-/// with factors from 0.005 to 20 between states; what is measured wrongly is so in all. Families whose needs the data don't
-/// meet, or whose set is empty here, go to `invisible` with the reason.
+/// what changed. A part then differs from the model in all states, in one alone or, of three and more, from one state on. Its
+/// factors go from 0.005 to 20 between states. A fault of a measurement is there in all states. Families whose needs the data
+/// don't meet, or whose set is empty here, go to `invisible` with the reason.
 /// @throws InputError  naming file and line for an unknown attribute, or bounds that are not low < high
 [[nodiscard]] Instantiated instantiate(const std::vector<Hypothesis>& catalogue, const ReducedModel& model,
                                        const FeatureSet& features);
