@@ -111,7 +111,6 @@ void append_coordinates(LoadTests& tests, const LoadTests& further) {
 struct ReducedModel::Kept {
   std::shared_ptr<StaticVectors> statics = std::make_shared<StaticVectors>();
   std::shared_ptr<ReducedBasis> basis;
-  int vectors_per_place = 0;
   bool whole = false;  ///< V is the identity
 };
 
@@ -149,7 +148,6 @@ ReducedModel::ReducedModel(const Structure& structure, const Places& places, con
   StaticVectors& statics = *kept_->statics;
   statics.factorize(structure);
   kept_->whole = structure.system->size() <= options.full_below;
-  kept_->vectors_per_place = options.vectors_per_place;
   if (!kept_->whole) statics.make_common(structure, places, modes, options);
   kept_->basis = std::make_shared<ReducedBasis>(
       kept_->whole ? MatrixXd(MatrixXd::Identity(structure.system->size(), structure.system->size())) : statics.common());
@@ -254,17 +252,6 @@ void ReducedModel::add_vectors(const Structure& structure, const std::vector<Own
     sensors.rightCols(v.cols()) = structure.sensors(v);
     if (!load_tests.empty()) append_coordinates(load_tests, projected(structure.load_tests, v));
   }
-}
-
-void ReducedModel::extend(const Structure& structure, const std::string& set, const std::vector<Place>& further) {
-  TWINDECK_ASSERT(kept_ != nullptr && kept_.use_count() == 1 && !sets.contains(set));
-  std::vector<ReducedPlace>& reduced_set = sets[set];
-  reduced_set.resize(further.size());
-  std::vector<Owner> owners;
-  for (std::size_t i = 0; i < further.size(); ++i) owners.push_back({&further[i], &reduced_set[i], kept_->vectors_per_place});
-  parallel_for(further.size(),
-               [&](std::size_t i) { reduced_set[i] = reduced(further[i], set, kept_->basis, *kept_->statics, total_mass_kg); });
-  if (!kept_->whole) add_vectors(structure, owners);
 }
 
 }  // namespace twindeck::diagnosis

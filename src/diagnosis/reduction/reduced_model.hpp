@@ -61,12 +61,6 @@ class ReducedModel {
   Eigen::MatrixXd mode_coordinates;  ///< (common × n_modes) the same modes in the common vectors, which hold them
   LoadTests load_tests;              ///< in the basis, which gives their displacements exactly at `theta`
 
-  /// Adds further locations as a new set, with their static responses as further basis vectors. Earlier coordinates keep their
-  /// numbers and meaning, so predictions without the further locations do not change.
-  /// @param structure  the same as in the constructor
-  /// @param set        a name that `sets` does not have
-  void extend(const Structure& structure, const std::string& set, const std::vector<Place>& further);
-
   [[nodiscard]] Eigen::Index size() const { return sensors.cols(); }
   /// The location called `id` in any set; null if there is none.
   [[nodiscard]] const ReducedPlace* place(const std::string& set, const std::string& id) const;
@@ -78,8 +72,8 @@ class ReducedModel {
   struct Owner;
   void add_vectors(const Structure& structure, const std::vector<Owner>& owners);
 
-  struct Kept;                  ///< input of `extend`: the basis, what vectors of places come from
-  std::shared_ptr<Kept> kept_;  ///< a model that has copies cannot be extended
+  struct Kept;                  ///< the basis, and what vectors of places come from
+  std::shared_ptr<Kept> kept_;  ///< copies share it
 };
 
 }  // namespace twindeck::diagnosis
