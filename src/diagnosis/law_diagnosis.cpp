@@ -223,9 +223,7 @@ class ByLaw {
         something_else += p;
       }
     }
-    // What the smallest of the sets can do without is no part of the answer.
-    const auto fewer = [](const LawAccount* a, const LawAccount* b) { return a->members.size() < b->members.size(); };
-    const LawAccount& leader = **std::min_element(set.begin(), set.end(), fewer);
+    const LawAccount& leader = account_to_take(set);
     if (!put_into_model(leader)) return;
     std::vector<Slot> slots;
     for (const int m : leader.members)
@@ -264,7 +262,7 @@ class ByLaw {
     for (std::size_t c = 0; c < leader.members.size(); ++c)
       if (!is_model_error(leader.members[c])) changes.push_back(leader.causes[c]);
     Fit with = fit_near(setting_.informed, changes, VectorXd((leader.refined() ? leader.with : search_.base).map.x.head(n)));
-    if (!with.made()) {
+    if (!leader.scored || !with.made()) {
       out_.verdict = Verdict::unknown;
       reason_ = "the best cause cannot be put into the model";
       return false;

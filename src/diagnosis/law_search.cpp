@@ -298,6 +298,13 @@ double left_of_change(const LawAccount& account) {
   return left > 0.0 ? left / std::hypot(left, account.effect) : 0.0;
 }
 
+const LawAccount& account_to_take(const std::vector<const LawAccount*>& possible) {
+  const auto before = [](const LawAccount* a, const LawAccount* b) {
+    return a->scored != b->scored ? a->scored : a->members.size() < b->members.size();
+  };
+  return **std::min_element(possible.begin(), possible.end(), before);
+}
+
 LawSearch search_by_law(const LawSetting& setting, const Fit& base) {
   LawSearch out;
   out.base = base;

@@ -71,6 +71,10 @@ constexpr double kMostLeft = 0.5;
 /// contrasts.
 [[nodiscard]] double left_of_change(const LawAccount& account);
 
+/// Of accounts that may each be the answer (not empty) the one that is put into the model: what the smallest can do without is
+/// no part of the answer. One that the screen alone has weighed has no fit, and comes last.
+[[nodiscard]] const LawAccount& account_to_take(const std::vector<const LawAccount*>& possible);
+
 [[nodiscard]] LawSearch search_by_law(const LawSetting& setting, const Fit& base);
 
 /// Whether the question is what changed between states, and an entry acts in all of them alike.

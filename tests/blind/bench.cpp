@@ -109,7 +109,7 @@ FeatureSet campaign(const Bench& bench) {
       row(RowType::frequency, m, -1, condition, model.frequency_Hz[m], f_std * model.frequency_Hz[m], out);
       if (damping) row(RowType::damping, m, -1, condition, 0.5, 0.1, out);
       if (m >= shapes) continue;
-      const Eigen::VectorXd shape = model.sensors * model.mode_coordinates.col(m);
+      const Eigen::VectorXd shape = model.sensors.leftCols(model.common) * model.mode_coordinates.col(m);
       double largest = 0.0;
       for (Index c = 0; c < static_cast<Index>(f.channels.size()); ++c) largest = std::max(largest, std::abs(shape[4 * c]));
       for (Index c = 0; c < static_cast<Index>(f.channels.size()); ++c) {

@@ -45,6 +45,16 @@ diagnosis::FeatureSet before_and_after(diagnosis::FeatureSet before, const diagn
   return no_row_held_out(before);
 }
 
+TEST(LawSearch, AnAnswerIsTakenFromTheSmallestAccountThatWasFitted) {
+  diagnosis::LawAccount pair, fitted, screened;
+  pair.members = {3, 7};
+  fitted.members = {3};
+  screened.members = {7};  // weighed by the screen alone: its scales have no deviations
+  pair.scored = fitted.scored = true;
+  EXPECT_EQ(&diagnosis::account_to_take({&pair, &screened, &fitted}), &fitted);
+  EXPECT_EQ(&diagnosis::account_to_take({&pair, &screened}), &pair);
+}
+
 TEST(LawSearch, PriorOddsOfEachClassOfCausesAreShared) {
   const Chain chain({.masses = 8, .modes = 5});
   const Examined e =
