@@ -28,12 +28,12 @@ transient::LinearSystem equations_of_motion(const aero::AeroelasticSystem& syste
 Response respond(const transient::Newmark& newmark, const Eigen::Ref<const MatrixXd>& load,
                  const Eigen::Ref<const MatrixXd>& wind_m_s, double step_s, const Eigen::Ref<const MatrixXd>& sensors,
                  const ResponseOptions& options) {
-  const Index n = wind_m_s.rows();
   const auto lead = static_cast<Index>(std::llround(options.lead_in_s / step_s));
+  const Index given = wind_m_s.rows(), n = options.repeats ? given : given - lead;
   const MatrixXd prepared = newmark.within_a_step(load);
   MatrixXd alone(prepared.rows(), lead + n);
-  alone.rightCols(n).noalias() = prepared * wind_m_s.transpose();
-  for (Index i = lead - 1; i >= 0; --i) alone.col(i) = alone.col(i + n);  // the sample is periodic, however often
+  alone.rightCols(given).noalias() = prepared * wind_m_s.transpose();
+  for (Index i = lead + n - given - 1; i >= 0; --i) alone.col(i) = alone.col(i + n);  // the sample is periodic, however often
   // From rest: the load comes up over the first half of the lead-in, so that no jump rings on.
   const Index ramp = lead / 2;
   for (Index i = 0; i < ramp; ++i) {

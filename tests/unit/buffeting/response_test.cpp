@@ -131,5 +131,19 @@ TEST(Respond, InputsAddUp) {
   EXPECT_LT((both - a - b).norm(), 1e-12 * both.norm());
 }
 
+// A sample that does not repeat brings its own run-up: that of a periodic one is its end.
+TEST(Respond, ARunUpOfItsOwnIsTheSamplesFirstPart) {
+  const double step = 1.0 / 32;
+  const Index n = 32 * 10, lead = 32 * 4;
+  const transient::Newmark newmark(equations_of_motion(heave_with(0.0, 0.0), 10.0, 3.0), step);
+  const MatrixXd load = MatrixXd::Ones(1, 1), sensor = MatrixXd::Ones(1, 1), wind = harmonic_wind(n, 9) + harmonic_wind(n, 4);
+  MatrixXd whole(lead + n, 1);
+  whole << wind.bottomRows(lead), wind;
+  const MatrixXd periodic = respond(newmark, load, wind, step, sensor, {4.0, true}).acceleration_m_s2,
+                 own = respond(newmark, load, whole, step, sensor, {4.0, false}).acceleration_m_s2;
+  ASSERT_EQ(own.rows(), n);
+  EXPECT_LT((own - periodic).norm(), 1e-13 * periodic.norm());
+}
+
 }  // namespace
 }  // namespace twindeck::buffeting
