@@ -23,7 +23,6 @@ struct ResponseOptions {
 };
 struct Response {
   Eigen::MatrixXd acceleration_m_s2;  ///< (n_steps × n_sensors) of the record
-  Status status;
 };
 /// @param newmark        of equations_of_motion, its step that of the wind
 /// @param load           (m × n_inputs) of load_matrix

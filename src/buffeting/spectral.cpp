@@ -10,6 +10,7 @@
 
 #include "core/error.hpp"
 #include "core/parallel.hpp"
+#include "linalg/dense.hpp"
 
 namespace twindeck::buffeting {
 
@@ -78,12 +79,17 @@ Eigen::VectorXcd turbulence_at_points(const wind::FieldDefinition& field, double
 }  // namespace
 
 MatrixXcd impedance(const aero::AeroelasticSystem& system, const aero::AeroelasticSystem::Block& air, double omega) {
-  const std::complex<double> i(0.0, 1.0);
   const aero::ReducedStructure& structure = system.structure();
-  MatrixXcd z = i * omega * (structure.damping() - air.damping) - air.stiffness.cast<std::complex<double>>();
-  z.diagonal().array() += structure.omega_rad_s.array().square() - omega * omega;
-  for (const aero::MaxwellUnit& unit : structure.maxwell)
-    z += maxwell_stiffness(unit, omega) * (unit.direction * unit.direction.transpose()).cast<std::complex<double>>();
+  MatrixXd real = -air.stiffness, imaginary = omega * (structure.damping() - air.damping);
+  real.diagonal().array() += structure.omega_rad_s.array().square() - omega * omega;
+  for (const aero::MaxwellUnit& unit : structure.maxwell) {
+    const std::complex<double> k = maxwell_stiffness(unit, omega);
+    real += k.real() * unit.direction * unit.direction.transpose();
+    imaginary += k.imag() * unit.direction * unit.direction.transpose();
+  }
+  MatrixXcd z(real.rows(), real.cols());
+  z.real() = real;
+  z.imag() = imaginary;
   return z;
 }
 
@@ -117,10 +123,10 @@ MatrixXd response_spectra(const aero::AeroelasticSystem& system, double speed_m_
   parallel_for(f_Hz.size(), [&](Index k) {
     const double omega = 2.0 * std::numbers::pi * f_Hz[k];
     // Few sensors and many loads: solved for the sensors, with the transpose.
-    const MatrixXcd z =
+    MatrixXcd z =
         impedance(system, is_frozen ? frozen : system.self_excited(speed_m_s, std::max(omega, options.lowest_omega)), omega)
             .transpose();
-    const MatrixXcd left = z.partialPivLu().solve(sensors.transpose().cast<std::complex<double>>());
+    const MatrixXcd left = linalg::solve(std::move(z), sensors.transpose().cast<std::complex<double>>());
     const double power = std::pow(omega, options.derivative);
     const MatrixXd real = power * left.real().transpose() * load, imaginary = power * left.imag().transpose() * load;
     MatrixXcd transfer(real.rows(), real.cols());

@@ -69,7 +69,6 @@ TEST(Respond, SteadyAmplitudeOfAHarmonicWind) {
   const transient::Newmark newmark(equations_of_motion(heave_with(0.0, 0.0), 10.0, 3.0), step);
   const MatrixXd load = MatrixXd::Constant(1, 1, 2.5);
   const Response found = respond(newmark, load, harmonic_wind(n, 100), step, Eigen::Vector2d(1.0, -3.0), {100.0});
-  EXPECT_TRUE(found.status.converged);
   ASSERT_EQ(found.acceleration_m_s2.rows(), n);
   ASSERT_EQ(found.acceleration_m_s2.cols(), 2);
   const double amplitude =
