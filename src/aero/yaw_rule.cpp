@@ -94,4 +94,11 @@ StaticFactor static_factor(const YawRule& rule, double yaw_rad) {
   return {1.0, 1.0};
 }
 
+StaticFactor static_slope(const YawRule& rule, double yaw_rad) {
+  const double c = yaw_cosine(yaw_rad), s = std::sin(yaw_rad);
+  if (rule.statics == StaticRule::cosine) return {-2.0 * c * s, -2.0 * c * s};
+  if (rule.statics == StaticRule::oblique_strip) return {0.0, s / (c * c)};
+  return {0.0, 0.0};
+}
+
 }  // namespace twindeck::aero

@@ -65,6 +65,8 @@ struct StaticFactor {
   double force, moment;
 };
 [[nodiscard]] StaticFactor static_factor(const YawRule& rule, double yaw_rad);
+/// Its derivatives by the yaw [1/rad].
+[[nodiscard]] StaticFactor static_slope(const YawRule& rule, double yaw_rad);
 /// cos theta. @throws InputError where it is not positive
 [[nodiscard]] double yaw_cosine(double yaw_rad);
 

@@ -18,20 +18,11 @@ namespace {
 
 /// Loads of a unit gust on each strip, v' and w', by rule A, over the free degrees of freedom. @return (n × 2 n_strips)
 MatrixXd gust_patterns(const BridgeInWind& bridge, const WindEventSettings& config) {
-  const aero::YawRule& rule = aero::published_yaw_rule("A");
   const double intensity_ratio = 0.5;  // w' is about half as strong as v': patterns are weighed by their size
-  const auto n = static_cast<Index>(bridge.model.strips.size());
-  MatrixXd at_nodes = MatrixXd::Zero(6 * n, 2 * n);
-  for (Index i = 0; i < n; ++i) {
-    const aero::Strip& strip = bridge.model.strips[static_cast<std::size_t>(i)];
-    const LoadFactor factor = buffeting::buffeting_factor(bridge.sections[static_cast<std::size_t>(strip.section)], strip, rule,
-                                                          bridge.aerodynamics.density_kg_m3, 1.0, config.equation_choice());
-    const aero::Kinematics kinematics = aero::kinematics(strip, rule.axes, bridge.aerodynamics.wind());
-    at_nodes.block<6, 1>(6 * i, i) = kinematics.transpose() * factor.col(0);
-    at_nodes.block<6, 1>(6 * i, n + i) = intensity_ratio * kinematics.transpose() * factor.col(1);
-  }
-  const MatrixXd nodal = bridge.model.nodes.motion.transpose() * at_nodes;
-  return bridge.loaded.system.expansion.transpose() * nodal;
+  MatrixXd patterns = nodal_patterns(bridge, aero::everywhere(aero::published_yaw_rule("A")), 1.0, config.equation_choice(),
+                                     {wind::Component::along, wind::Component::vertical});
+  patterns.rightCols(std::ssize(bridge.model.strips)) *= intensity_ratio;
+  return patterns;
 }
 
 /// Unit vertical forces at the monitoring points, over the free degrees of freedom. @return (n × n_points)
@@ -105,6 +96,21 @@ aero::AeroelasticSystem system_of(const BridgeInWind& bridge, const aero::Deploy
           bridge.aerodynamics.wind(), deployment};
 }
 
+MatrixXd nodal_patterns(const BridgeInWind& bridge, const aero::Deployment& deployment, double speed_m_s,
+                        aero::Equations equations, const std::vector<wind::Component>& components) {
+  const Index n = std::ssize(bridge.model.strips), kinds = std::ssize(components);
+  MatrixXd at_nodes = MatrixXd::Zero(6 * n, kinds * n);
+  for (Index i = 0; i < n; ++i) {
+    const aero::Strip& strip = bridge.model.strips[static_cast<std::size_t>(i)];
+    const MatrixXd load =
+        strip_load(bridge.sections[static_cast<std::size_t>(strip.section)], strip, deployment.at(strip.deck, strip.yaw_rad),
+                   bridge.aerodynamics.wind(), speed_m_s, equations, components);
+    for (Index k = 0; k < kinds; ++k) at_nodes.block<6, 1>(6 * i, k * n + i) = load.col(k);
+  }
+  const MatrixXd nodal = bridge.model.nodes.motion.transpose() * at_nodes;
+  return bridge.loaded.system.expansion.transpose() * nodal;
+}
+
 wind::FieldDefinition field_at_nodes(const BridgeInWind& bridge, const wind::TurbulenceSet& set, double height_m,
                                      double speed_m_s, wind::Component component, bool frozen) {
   const Eigen::Vector3d along = bridge.aerodynamics.wind().direction, across = Eigen::Vector3d::UnitZ().cross(along);
@@ -119,9 +125,20 @@ wind::FieldDefinition field_at_nodes(const BridgeInWind& bridge, const wind::Tur
   field.speed_m_s = Eigen::VectorXd::Constant(n, speed_m_s);
   field.sigma_m_s = Eigen::VectorXd::Constant(n, wind::standard_deviation(set, component, height_m, speed_m_s));
   field.length_m = Eigen::VectorXd::Constant(n, wind::length_scale(set, component, height_m));
-  field.decay = set.decay[static_cast<std::size_t>(component)];
+  const auto c = static_cast<std::size_t>(component);
+  field.decay = set.decay[c];
+  field.law = set.spectrum[c];
+  field.coherence_table = set.coherence[c];
   field.frozen = frozen;
   return field;
+}
+
+std::vector<wind::FieldDefinition> fields_at_nodes(const BridgeInWind& bridge, const wind::TurbulenceSet& set,
+                                                   const WindEventSettings& config, double speed_m_s) {
+  std::vector<wind::FieldDefinition> fields;
+  for (const wind::Component component : config.components())
+    fields.push_back(field_at_nodes(bridge, set, config.height_m, speed_m_s, component, config.frozen));
+  return fields;
 }
 
 }  // namespace twindeck::buffeting

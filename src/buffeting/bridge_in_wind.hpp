@@ -48,8 +48,16 @@ struct BridgeInWind {
 [[nodiscard]] aero::Deployment deployment_of(const aero::WindSettings& config, const std::string& model);
 [[nodiscard]] aero::AeroelasticSystem system_of(const BridgeInWind& bridge, const aero::Deployment& deployment);
 
-/// v' or w' at the aerodynamic nodes in a mean wind.
+/// The wind's force on the strips per unit of each component, over the free degrees of freedom.
+/// @return (n × n_components n_strips)
+[[nodiscard]] Eigen::MatrixXd nodal_patterns(const BridgeInWind& bridge, const aero::Deployment& deployment, double speed_m_s,
+                                             aero::Equations equations, const std::vector<wind::Component>& components);
+
+/// One component at the aerodynamic nodes in a mean wind.
 [[nodiscard]] wind::FieldDefinition field_at_nodes(const BridgeInWind& bridge, const wind::TurbulenceSet& set, double height_m,
                                                    double speed_m_s, wind::Component component, bool frozen);
+/// The components that load the decks, in the order of the load's columns.
+[[nodiscard]] std::vector<wind::FieldDefinition> fields_at_nodes(const BridgeInWind& bridge, const wind::TurbulenceSet& set,
+                                                                 const WindEventSettings& config, double speed_m_s);
 
 }  // namespace twindeck::buffeting

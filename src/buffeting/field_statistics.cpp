@@ -19,13 +19,14 @@ namespace {
 constexpr double kSegment_s = 64.0;
 /// Limits of 20 seeds of 600 s, three standard deviations of the mean at the worst of 60 points; shorter work scatters more.
 constexpr double kLimitSeeds = 20.0, kLimitDuration_s = 600.0;
-constexpr double kAlongLimit = 0.05, kVerticalLimit = 0.02;       ///< [-] of the standard deviation of v' and of w'
+constexpr wind::PerComponent kSigmaLimit = {0.05, 0.03, 0.02};    ///< [-] of the standard deviations of v', u', w'
 constexpr double kSpectrumLimit = 0.015, kCoherenceLimit = 0.05;  ///< [-] RMS over frequencies; over pairs and frequencies
 
 }  // namespace
 
-FieldStatistics::FieldStatistics(std::string event, const wind::Simulator& along, const wind::Simulator& vertical, long seeds)
-    : event_(std::move(event)), simulators_{&along, &vertical}, seeds_(static_cast<std::size_t>(seeds)) {
+FieldStatistics::FieldStatistics(std::string event, const std::vector<wind::Simulator>& simulators, long seeds)
+    : event_(std::move(event)), simulators_(simulators), seeds_(static_cast<std::size_t>(seeds)) {
+  const wind::Simulator& along = simulators.front();
   // No wave at or above the cutoff: every stride-th sample tells all.
   const double rate = static_cast<double>(along.n_samples()) * along.spacing_Hz();
   const double cutoff = static_cast<double>(along.n_waves() + 1) * along.spacing_Hz();
@@ -39,27 +40,26 @@ FieldStatistics::FieldStatistics(std::string event, const wind::Simulator& along
   chosen_.erase(std::unique(chosen_.begin(), chosen_.end()), chosen_.end());
 }
 
-void FieldStatistics::add(long seed, const MatrixXd& gusts) {
+void FieldStatistics::add(long seed, const Eigen::Ref<const MatrixXd>& gusts) {
   Seed& own = seeds_[static_cast<std::size_t>(seed)];
   own.mean_square = gusts.colwise().squaredNorm().transpose() / static_cast<double>(gusts.rows());
-  const Index n = gusts.cols() / 2, samples = gusts.rows() / stride_;
-  for (Index c = 0; c < 2; ++c) {
+  const Index kinds = std::ssize(simulators_), n = gusts.cols() / kinds, samples = gusts.rows() / stride_;
+  for (Index c = 0; c < kinds; ++c) {
     const Eigen::Map<const MatrixXd, 0, Eigen::Stride<Eigen::Dynamic, Eigen::Dynamic>> part(
-        gusts.col(c * n).data(), samples, n, Eigen::Stride<Eigen::Dynamic, Eigen::Dynamic>(gusts.rows(), stride_));
+        gusts.col(c * n).data(), samples, n, Eigen::Stride<Eigen::Dynamic, Eigen::Dynamic>(gusts.outerStride(), stride_));
     const MatrixXd kept = part;
-    const auto at = static_cast<std::size_t>(c);
-    own.density[at] = signal::power_spectra(kept, rate_Hz_, {.segment = segment_}).density.rowwise().mean();
-    own.cross[at] = signal::cross_spectra(kept(Eigen::all, chosen_), rate_Hz_, {.segment = segment_}).density;
+    own.density.push_back(signal::power_spectra(kept, rate_Hz_, {.segment = segment_}).density.rowwise().mean());
+    own.cross.push_back(signal::cross_spectra(kept(Eigen::all, chosen_), rate_Hz_, {.segment = segment_}).density);
   }
 }
 
 std::vector<FieldCheck> FieldStatistics::checks() const {
   std::vector<FieldCheck> out;
-  const wind::Simulator& any = *simulators_[0];
+  const wind::Simulator& any = simulators_.front();
   const double scatter = std::sqrt(kLimitSeeds * kLimitDuration_s * any.spacing_Hz() / static_cast<double>(seeds_.size()));
-  const std::array<double, 2> limit = {kAlongLimit, kVerticalLimit};
-  for (std::size_t c = 0; c < 2; ++c) {
-    const wind::FieldDefinition& field = simulators_[c]->field();
+  for (std::size_t c = 0; c < simulators_.size(); ++c) {
+    const wind::FieldDefinition& field = simulators_[c].field();
+    const double limit = wind::of(kSigmaLimit, field.component);
     const std::string letter = wind::paper_letter(field.component);
     const Index n = field.size(), bins = static_cast<Index>(segment_ / 2 + 1);
     VectorXd mean_square = VectorXd::Zero(n), density = VectorXd::Zero(bins);
@@ -77,8 +77,8 @@ std::vector<FieldCheck> FieldStatistics::checks() const {
     const VectorXd sigma = mean_square.cwiseSqrt();
     Index worst = 0;
     (sigma.array() - target).abs().maxCoeff(&worst);
-    out.push_back({event_, "sigma_" + letter + "_mean_m_s", target, sigma.mean(), limit[c] * scatter * target});
-    out.push_back({event_, "sigma_" + letter + "_worst_point_m_s", target, sigma[worst], limit[c] * scatter * target});
+    out.push_back({event_, "sigma_" + letter + "_mean_m_s", target, sigma.mean(), limit * scatter * target});
+    out.push_back({event_, "sigma_" + letter + "_worst_point_m_s", target, sigma[worst], limit * scatter * target});
 
     double error = 0.0, difference = 0.0;
     Index pairs = 0;

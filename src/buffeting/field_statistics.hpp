@@ -1,7 +1,6 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <array>
 #include <string>
 #include <vector>
 
@@ -18,20 +17,22 @@ struct FieldCheck {
 /// Collects what the samples have, seed by seed in any order; one instance an event.
 class FieldStatistics {
  public:
-  FieldStatistics(std::string event, const wind::Simulator& along, const wind::Simulator& vertical, long seeds);
-  /// @param gusts  (n_samples × 2 n_points) v' of every point, then w'; may be called by several threads, for different seeds
-  void add(long seed, const Eigen::MatrixXd& gusts);
+  /// @param simulators  one a component, which outlive this
+  FieldStatistics(std::string event, const std::vector<wind::Simulator>& simulators, long seeds);
+  /// @param gusts  (n_samples × n_components n_points) in the order of the simulators; may be called by several threads, for
+  ///               different seeds
+  void add(long seed, const Eigen::Ref<const Eigen::MatrixXd>& gusts);
   /// Standard deviation (mean and worst point), spectrum (rms over frequencies), coherence (rms over pairs and frequencies).
   [[nodiscard]] std::vector<FieldCheck> checks() const;
 
  private:
   struct Seed {
-    Eigen::VectorXd mean_square;                         ///< (2 n_points)
-    std::array<Eigen::VectorXd, 2> density;              ///< mean over points
-    std::array<std::vector<Eigen::MatrixXcd>, 2> cross;  ///< of the chosen points
+    Eigen::VectorXd mean_square;                       ///< (n_components n_points)
+    std::vector<Eigen::VectorXd> density;              ///< mean over points, by component
+    std::vector<std::vector<Eigen::MatrixXcd>> cross;  ///< of the chosen points, by component
   };
   std::string event_;
-  std::array<const wind::Simulator*, 2> simulators_;
+  const std::vector<wind::Simulator>& simulators_;
   Eigen::Index stride_, segment_;
   double rate_Hz_;
   std::vector<Eigen::Index> chosen_;

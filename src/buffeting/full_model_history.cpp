@@ -2,6 +2,7 @@
 
 #include "aero/wind_model.hpp"
 #include "linalg/cholesky.hpp"
+#include "linalg/dense.hpp"
 
 namespace twindeck::buffeting {
 
@@ -88,12 +89,13 @@ MatrixXd full_model_history(const dynamics::LoadedModel& loaded, const std::vect
 
   const auto mass = m.selfadjointView<Eigen::Lower>();
   const auto stiffness = k.selfadjointView<Eigen::Lower>();
+  const MatrixXd force = linalg::product(patterns, amplitude);
   VectorXd q = VectorXd::Zero(k.rows()), v = q, a = q;
   MatrixXd out = MatrixXd::Zero(observed.rows(), amplitude.cols());
   for (Index i = 1; i < amplitude.cols(); ++i) {
     q += dt * v + quarter * a;  // predictors
     v += 0.5 * dt * a;
-    VectorXd right = patterns * amplitude.col(i);
+    VectorXd right = force.col(i);
     right -= damping.mass_part * VectorXd(mass * v);
     right -= stiffness * VectorXd(q + damping.stiffness_part * v);
     const VectorXd elongation = direction.transpose() * q, rate = direction.transpose() * v;

@@ -21,18 +21,57 @@ LoadFactor buffeting_factor(const aero::SectionAero& section, const aero::Strip&
   return 0.5 * density_kg_m3 * speed_m_s * section.chord_m * strip.length_m * factor;
 }
 
-Eigen::MatrixXd load_matrix(const aero::AeroelasticSystem& system, double speed_m_s, aero::Equations equations) {
+Eigen::Matrix<double, 6, 1> across_load(const aero::SectionAero& section, const aero::Strip& strip, const aero::YawRule& rule,
+                                        const aero::Wind& wind, double speed_m_s) {
+  const aero::StaticCoefficients c = section.polar.at(strip.alpha_rad);
+  const Eigen::Vector3d static_part(c.drag, c.lift, c.moment * section.chord_m);
+  const aero::StaticFactor factor = aero::static_factor(rule, strip.yaw_rad), slope = aero::static_slope(rule, strip.yaw_rad);
+  const auto scaled = [&static_part](const aero::StaticFactor& by) {
+    return static_part.cwiseProduct(Eigen::Vector3d(by.force, by.force, by.moment)).eval();
+  };
+  Eigen::Matrix<double, 6, 1> load = aero::kinematics(strip, rule.axes, wind).transpose() * scaled(slope);
+  if (rule.axes == aero::ForceAxes::wind) {  // drag and the moment's axis turn with the wind, lift stays
+    const aero::Wind turned{wind.density_kg_m3, Eigen::Vector3d::UnitZ().cross(wind.direction)};
+    aero::Kinematics change = aero::kinematics(strip, rule.axes, turned);
+    change.row(1).setZero();
+    load += change.transpose() * scaled(factor);
+  }
+  return 0.5 * wind.density_kg_m3 * speed_m_s * section.chord_m * strip.length_m * load;
+}
+
+Eigen::MatrixXd strip_load(const aero::SectionAero& section, const aero::Strip& strip, const aero::YawRule& rule,
+                           const aero::Wind& wind, double speed_m_s, aero::Equations equations,
+                           const std::vector<wind::Component>& components) {
+  const LoadFactor factor = buffeting_factor(section, strip, rule, wind.density_kg_m3, speed_m_s, equations);
+  const aero::Kinematics kinematics = aero::kinematics(strip, rule.axes, wind);
+  Eigen::MatrixXd load(6, std::ssize(components));
+  for (Index k = 0; k < load.cols(); ++k) {
+    const wind::Component component = components[static_cast<std::size_t>(k)];
+    load.col(k) = component == wind::Component::across
+                      ? across_load(section, strip, rule, wind, speed_m_s)
+                      : (kinematics.transpose() * factor.col(component == wind::Component::along ? 0 : 1)).eval();
+  }
+  return load;
+}
+
+Eigen::MatrixXd load_matrix(const aero::AeroelasticSystem& system, double speed_m_s, aero::Equations equations,
+                            const std::vector<wind::Component>& components) {
   const auto n = static_cast<Index>(system.strips().size());
-  Eigen::MatrixXd load(system.structure().size(), 2 * n);
+  Eigen::MatrixXd load(system.structure().size(), std::ssize(components) * n);
   for (Index i = 0; i < n; ++i) {
     const aero::Strip& strip = system.strips()[static_cast<std::size_t>(i)];
     const aero::YawRule& rule = system.rule(strip);
-    const LoadFactor factor = buffeting_factor(system.sections()[static_cast<std::size_t>(strip.section)], strip, rule,
-                                               system.wind().density_kg_m3, speed_m_s, equations);
-    const Eigen::MatrixXd motion =
-        aero::kinematics(strip, rule.axes, system.wind()) * system.motions()[static_cast<std::size_t>(i)];
-    load.col(i) = motion.transpose() * factor.col(0);
-    load.col(n + i) = motion.transpose() * factor.col(1);
+    const aero::SectionAero& section = system.sections()[static_cast<std::size_t>(strip.section)];
+    const LoadFactor factor = buffeting_factor(section, strip, rule, system.wind().density_kg_m3, speed_m_s, equations);
+    const aero::StripMotion& at_strip = system.motions()[static_cast<std::size_t>(i)];
+    const Eigen::MatrixXd motion = aero::kinematics(strip, rule.axes, system.wind()) * at_strip;
+    for (Index k = 0; k < std::ssize(components); ++k) {
+      const wind::Component component = components[static_cast<std::size_t>(k)];
+      if (component == wind::Component::across)
+        load.col(k * n + i) = at_strip.transpose() * across_load(section, strip, rule, system.wind(), speed_m_s);
+      else
+        load.col(k * n + i) = motion.transpose() * factor.col(component == wind::Component::along ? 0 : 1);
+    }
   }
   return load;
 }

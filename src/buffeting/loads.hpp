@@ -1,8 +1,10 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <vector>
 
 #include "aero/aeroelastic_system.hpp"
+#include "wind/component.hpp"
 
 namespace twindeck::buffeting {
 
@@ -21,8 +23,23 @@ using LoadFactor = Eigen::Matrix<double, 3, 2>;
 [[nodiscard]] LoadFactor buffeting_factor(const aero::SectionAero& section, const aero::Strip& strip, const aero::YawRule& rule,
                                           double density_kg_m3, double speed_m_s, aero::Equations equations);
 
+/// Force and moment of a strip per unit of u', the gust across the wind in plan, which the paper leaves out. To first order u'
+/// turns the wind by u'/V and keeps its speed, so this is the change of the static force of Eq. (7) with the wind's direction,
+/// over V: of its factor at the turned yaw (under the cosine rule, the speed along the normal changes by -u' sin theta), and of
+/// its axes, where these are the wind's.
+/// @return [N s/m, N s] (6) global force and moment
+[[nodiscard]] Eigen::Matrix<double, 6, 1> across_load(const aero::SectionAero& section, const aero::Strip& strip,
+                                                      const aero::YawRule& rule, const aero::Wind& wind, double speed_m_s);
+
+/// Global force and moment of a strip per unit of each component. @return [N s/m, N s] (6 × n_components)
+[[nodiscard]] Eigen::MatrixXd strip_load(const aero::SectionAero& section, const aero::Strip& strip, const aero::YawRule& rule,
+                                         const aero::Wind& wind, double speed_m_s, aero::Equations equations,
+                                         const std::vector<wind::Component>& components);
+
 /// Buffeting forces on the coordinates of a reduced structure, per unit of turbulence at each strip.
-/// @return [N s/m] (m × 2 n_strips): columns v' of every strip, then w' of every strip
-[[nodiscard]] Eigen::MatrixXd load_matrix(const aero::AeroelasticSystem& system, double speed_m_s, aero::Equations equations);
+/// @return [N s/m] (m × n_components n_strips): columns of every strip by the first component, then by the next
+[[nodiscard]] Eigen::MatrixXd load_matrix(const aero::AeroelasticSystem& system, double speed_m_s, aero::Equations equations,
+                                          const std::vector<wind::Component>& components = {wind::Component::along,
+                                                                                            wind::Component::vertical});
 
 }  // namespace twindeck::buffeting

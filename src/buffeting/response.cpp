@@ -1,8 +1,10 @@
 #include "buffeting/response.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
-#include <utility>
+
+#include "linalg/dense.hpp"
 
 namespace twindeck::buffeting {
 
@@ -28,19 +30,32 @@ transient::LinearSystem equations_of_motion(const aero::AeroelasticSystem& syste
 Response respond(const transient::Newmark& newmark, const Eigen::Ref<const MatrixXd>& load,
                  const Eigen::Ref<const MatrixXd>& wind_m_s, double step_s, const Eigen::Ref<const MatrixXd>& sensors,
                  const ResponseOptions& options) {
-  const Index n = wind_m_s.rows();
   const auto lead = static_cast<Index>(std::llround(options.lead_in_s / step_s));
-  const MatrixXd prepared = newmark.within_a_step(load);
-  MatrixXd alone(prepared.rows(), lead + n);
-  alone.rightCols(n).noalias() = prepared * wind_m_s.transpose();
-  for (Index i = lead - 1; i >= 0; --i) alone.col(i) = alone.col(i + n);  // the sample is periodic, however often
+  const Index given = wind_m_s.rows(), n = options.repeats ? given : given - lead;
   // From rest: the load comes up over the first half of the lead-in, so that no jump rings on.
   const Index ramp = lead / 2;
-  for (Index i = 0; i < ramp; ++i) {
-    alone.col(i) *= 0.5 - 0.5 * std::cos(std::numbers::pi * static_cast<double>(i) / static_cast<double>(ramp));
+  const MatrixXd forces = newmark.within_a_step(load).transpose();
+  const MatrixXd seen = sensors.transpose();
+  constexpr Index piece = 512;  ///< [steps] at a time: a piece of gusts, accelerations and sensors stays in the cache
+  Response out;
+  out.acceleration_m_s2.resize(n, sensors.rows());
+  transient::Motion motion;
+  for (Index i = -lead, count = 0; i < n; i += count) {
+    // Where the sample is periodic, however often, the run-up is its end.
+    const Index from = options.repeats ? (i % n + n) % n : i + lead;
+    count = std::min({piece, i < 0 ? -i : n - i, given - from});
+    MatrixXd step = linalg::product(wind_m_s.middleRows(from, count), forces).transpose();
+    for (Index k = 0; k < count && i + lead + k < ramp; ++k)
+      step.col(k) *= 0.5 - 0.5 * std::cos(std::numbers::pi * static_cast<double>(i + lead + k) / static_cast<double>(ramp));
+    if (i == -lead) {  // at rest, whatever the first force is
+      step.col(0).setZero();
+      newmark.advance(motion, step.rightCols(count - 1));
+    } else {
+      newmark.advance(motion, step);
+    }
+    if (i >= 0) out.acceleration_m_s2.middleRows(i, count) = linalg::product(step.topRows(sensors.cols()), seen, true);
   }
-  const transient::History history = newmark.run_prepared(std::move(alone));
-  return {(sensors * history.acceleration.topRightCorner(sensors.cols(), n)).transpose(), history.status};
+  return out;
 }
 
 VectorXd root_mean_squares(const Eigen::Ref<const MatrixXd>& history) {

@@ -16,16 +16,17 @@ namespace twindeck::buffeting {
 
 /// Accelerations at sensors under one sample of turbulence.
 struct ResponseOptions {
-  /// Run-up before the record: the end of the sample, which is periodic, and for a longer one all of it again.
-  double lead_in_s = 60.0;
+  double lead_in_s = 60.0;  ///< run-up before the record
+  /// The sample is periodic: the run-up is its end, and for a longer one all of it again. Otherwise the run-up is the sample's
+  /// own first part, and the record is the rest.
+  bool repeats = true;
 };
 struct Response {
-  Eigen::MatrixXd acceleration_m_s2;  ///< (n_steps × n_sensors) over the sample's period, first columns first
-  Status status;
+  Eigen::MatrixXd acceleration_m_s2;  ///< (n_steps × n_sensors) of the record
 };
 /// @param newmark        of equations_of_motion, its step that of the wind
 /// @param load           (m × n_inputs) of load_matrix
-/// @param wind_m_s       (n_steps × n_inputs) v' of every strip, then w'
+/// @param wind_m_s       (n_steps × n_inputs) gusts of every strip, component by component
 /// @param step_s         of the wind
 /// @param sensors        (n_sensors × m) motion of each sensor per unit of each coordinate
 [[nodiscard]] Response respond(const transient::Newmark& newmark, const Eigen::Ref<const Eigen::MatrixXd>& load,

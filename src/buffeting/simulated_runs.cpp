@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "aero/stability.hpp"
+#include "buffeting/gusts.hpp"
 #include "buffeting/loads.hpp"
 #include "buffeting/response.hpp"
 #include "buffeting/spectral.hpp"
@@ -43,15 +44,15 @@ Status stability(const BridgeInWind& bridge, const WindEventSettings& config, co
 }
 
 void add_spectral_values(RunResult& result, const BridgeInWind& bridge, const WindEventSettings& config, double speed_m_s,
-                         const aero::AeroelasticSystem& system, const MatrixXd& load, const wind::FieldDefinition& along,
-                         const wind::FieldDefinition& vertical) {
+                         const aero::AeroelasticSystem& system, const MatrixXd& load,
+                         const std::vector<wind::FieldDefinition>& fields) {
   const Eigen::VectorXd f = spectral_frequencies(config.cutoff_Hz);
   SpectralOptions options;
   options.lowest_omega = 2.0 * std::numbers::pi * kLowestDerivatives_Hz;
   const auto points = static_cast<Index>(3 * bridge.sensors.points.size());  // of the monitoring points alone
   const auto rms = [&] {
-    return buffeting::band_rms(f, buffeting::response_spectra(system, speed_m_s, load, along, vertical,
-                                                              bridge.sensors.motion.topRows(points), f, options));
+    return buffeting::band_rms(
+        f, buffeting::response_spectra(system, speed_m_s, load, fields, bridge.sensors.motion.topRows(points), f, options));
   };
   result.spectral_rms_each_frequency = rms();
   options.frozen_omega = bridge.frozen_omega;
@@ -65,16 +66,16 @@ struct Start {
 };
 
 Start prepare(const BridgeInWind& bridge, const WindEventSettings& config, const WindEvent& event,
-              const wind::FieldDefinition& along, const wind::FieldDefinition& vertical) {
+              const std::vector<wind::FieldDefinition>& fields) {
   Start start;
   for (const ValidationRun& run : config.runs) {
     const aero::AeroelasticSystem system = system_of(bridge, deployment_of(bridge.aerodynamics, run.model));
     RunResult result{event.name, run.name, run.model, {}, {}, {}, {}, stability(bridge, config, event, run, system)};
     if (result.status.converged) {
-      const MatrixXd load = buffeting::load_matrix(system, event.speed_m_s, config.equation_choice());
+      const MatrixXd load = buffeting::load_matrix(system, event.speed_m_s, config.equation_choice(), config.components());
       result.rms.resize(bridge.sensors.motion.rows(), config.seeds);
       result.peak = result.rms;
-      add_spectral_values(result, bridge, config, event.speed_m_s, system, load, along, vertical);
+      add_spectral_values(result, bridge, config, event.speed_m_s, system, load, fields);
       start.stable.push_back(
           {start.results.size(), load,
            transient::Newmark(buffeting::equations_of_motion(system, event.speed_m_s, bridge.frozen_omega), config.step_s)});
@@ -88,30 +89,20 @@ Start prepare(const BridgeInWind& bridge, const WindEventSettings& config, const
 
 SimulatedEvent simulate_event(const BridgeInWind& bridge, const wind::TurbulenceSet& set, const WindEventSettings& config,
                               const WindEvent& event, std::uint64_t first_seed, const Reporter& reporter) {
-  wind::SimulationOptions options;
-  options.duration_s = config.duration_s;
-  options.rate_Hz = 1.0 / config.step_s;
-  options.cutoff_Hz = config.cutoff_Hz;
-  options.anchors = static_cast<int>(config.anchors);
-  const auto field = [&](wind::Component component) {
-    return field_at_nodes(bridge, set, config.height_m, event.speed_m_s, component, config.frozen);
-  };
-  const wind::Simulator along(field(wind::Component::along), options), vertical(field(wind::Component::vertical), options);
-  Start start = prepare(bridge, config, event, along.field(), vertical.field());
+  const Gusts gusts(bridge, set, config, event.speed_m_s, config.step_s);
+  Start start = prepare(bridge, config, event, fields_at_nodes(bridge, set, config, event.speed_m_s));
   if (start.stable.empty()) return {std::move(start.results), {}};
-  FieldStatistics statistics(event.name, along, vertical, config.seeds);
+  FieldStatistics statistics(event.name, gusts.simulators(), config.seeds);
 
   std::mutex counting;
   Index done = 0;
   parallel_for(config.seeds, [&](long seed) {
     const std::uint64_t own = first_seed * 1000003 + static_cast<std::uint64_t>(seed);
-    const Index strips = along.field().size();
-    MatrixXd gusts(along.n_samples(), 2 * strips);
-    gusts << along.sample(own), vertical.sample(own);
-    statistics.add(seed, gusts);
+    const MatrixXd sample = gusts.sample(own);
+    statistics.add(seed, sample.bottomRows(sample.rows() - gusts.before()));
     for (const Prepared& run : start.stable) {
-      const Response response =
-          buffeting::respond(run.newmark, run.load, gusts, config.step_s, bridge.sensors.motion, {config.lead_in_s});
+      const Response response = buffeting::respond(run.newmark, run.load, sample, config.step_s, bridge.sensors.motion,
+                                                   {config.lead_in_s, config.repeats()});
       RunResult& result = start.results[run.run];
       result.rms.col(seed) = buffeting::root_mean_squares(response.acceleration_m_s2);
       result.peak.col(seed) = response.acceleration_m_s2.cwiseAbs().colwise().maxCoeff().transpose();

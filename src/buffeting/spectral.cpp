@@ -10,6 +10,7 @@
 
 #include "core/error.hpp"
 #include "core/parallel.hpp"
+#include "linalg/dense.hpp"
 
 namespace twindeck::buffeting {
 
@@ -78,12 +79,17 @@ Eigen::VectorXcd turbulence_at_points(const wind::FieldDefinition& field, double
 }  // namespace
 
 MatrixXcd impedance(const aero::AeroelasticSystem& system, const aero::AeroelasticSystem::Block& air, double omega) {
-  const std::complex<double> i(0.0, 1.0);
   const aero::ReducedStructure& structure = system.structure();
-  MatrixXcd z = i * omega * (structure.damping() - air.damping) - air.stiffness.cast<std::complex<double>>();
-  z.diagonal().array() += structure.omega_rad_s.array().square() - omega * omega;
-  for (const aero::MaxwellUnit& unit : structure.maxwell)
-    z += maxwell_stiffness(unit, omega) * (unit.direction * unit.direction.transpose()).cast<std::complex<double>>();
+  MatrixXd real = -air.stiffness, imaginary = omega * (structure.damping() - air.damping);
+  real.diagonal().array() += structure.omega_rad_s.array().square() - omega * omega;
+  for (const aero::MaxwellUnit& unit : structure.maxwell) {
+    const std::complex<double> k = maxwell_stiffness(unit, omega);
+    real += k.real() * unit.direction * unit.direction.transpose();
+    imaginary += k.imag() * unit.direction * unit.direction.transpose();
+  }
+  MatrixXcd z(real.rows(), real.cols());
+  z.real() = real;
+  z.imag() = imaginary;
   return z;
 }
 
@@ -105,10 +111,11 @@ VectorXd spectral_frequencies(double cutoff_Hz) {
 }
 
 MatrixXd response_spectra(const aero::AeroelasticSystem& system, double speed_m_s, const Eigen::Ref<const MatrixXd>& load,
-                          const wind::FieldDefinition& along, const wind::FieldDefinition& vertical,
-                          const Eigen::Ref<const MatrixXd>& sensors, const Eigen::Ref<const VectorXd>& f_Hz,
-                          const SpectralOptions& options) {
-  const Index strips = along.size();
+                          const std::vector<wind::FieldDefinition>& fields, const Eigen::Ref<const MatrixXd>& sensors,
+                          const Eigen::Ref<const VectorXd>& f_Hz, const SpectralOptions& options) {
+  const Index strips = fields.front().size();
+  for (const wind::FieldDefinition& field : fields)  // a table may be no coherence, and a variance then be negative
+    for (Index k = 0; field.coherence_table && k < f_Hz.size(); ++k) static_cast<void>(wind::coherence_factor(field, f_Hz[k]));
   MatrixXd spectra = MatrixXd::Zero(f_Hz.size(), sensors.rows());
   const bool is_frozen = options.frozen_omega > 0.0;
   const aero::AeroelasticSystem::Block frozen =
@@ -116,19 +123,21 @@ MatrixXd response_spectra(const aero::AeroelasticSystem& system, double speed_m_
   parallel_for(f_Hz.size(), [&](Index k) {
     const double omega = 2.0 * std::numbers::pi * f_Hz[k];
     // Few sensors and many loads: solved for the sensors, with the transpose.
-    const MatrixXcd z =
+    MatrixXcd z =
         impedance(system, is_frozen ? frozen : system.self_excited(speed_m_s, std::max(omega, options.lowest_omega)), omega)
             .transpose();
-    const MatrixXcd left = z.partialPivLu().solve(sensors.transpose().cast<std::complex<double>>());
+    const MatrixXcd left = linalg::solve(std::move(z), sensors.transpose().cast<std::complex<double>>());
     const double power = std::pow(omega, options.derivative);
     const MatrixXd real = power * left.real().transpose() * load, imaginary = power * left.imag().transpose() * load;
     MatrixXcd transfer(real.rows(), real.cols());
     transfer.real() = real;
     transfer.imag() = imaginary;
     const double chi = options.admittance ? options.admittance(f_Hz[k]) : 1.0;
-    for (const auto& [field, first] : {std::pair{&along, Index{0}}, std::pair{&vertical, strips}}) {
-      const MatrixXd split = split_transfer(transfer.middleCols(first, strips), turbulence_at_points(*field, f_Hz[k]));
-      const VectorXd square = (split * wind::coherence(*field, f_Hz[k])).cwiseProduct(split).rowwise().sum();
+    for (std::size_t c = 0; c < fields.size(); ++c) {
+      const wind::FieldDefinition& field = fields[c];
+      const Index first = static_cast<Index>(c) * strips;
+      const MatrixXd split = split_transfer(transfer.middleCols(first, strips), turbulence_at_points(field, f_Hz[k]));
+      const VectorXd square = (split * wind::coherence(field, f_Hz[k])).cwiseProduct(split).rowwise().sum();
       spectra.row(k) += chi * (square.head(sensors.rows()) + square.tail(sensors.rows())).transpose();
     }
   });
@@ -136,12 +145,12 @@ MatrixXd response_spectra(const aero::AeroelasticSystem& system, double speed_m_
 }
 
 std::vector<MatrixXd> response_spectra_slopes(const aero::AeroelasticSystem& system, double speed_m_s,
-                                              const Eigen::Ref<const MatrixXd>& load, const wind::FieldDefinition& along,
-                                              const wind::FieldDefinition& vertical, const Eigen::Ref<const MatrixXd>& sensors,
-                                              const Eigen::Ref<const VectorXd>& f_Hz, const std::vector<SystemSlope>& slopes,
-                                              const SpectralOptions& options) {
+                                              const Eigen::Ref<const MatrixXd>& load,
+                                              const std::vector<wind::FieldDefinition>& fields,
+                                              const Eigen::Ref<const MatrixXd>& sensors, const Eigen::Ref<const VectorXd>& f_Hz,
+                                              const std::vector<SystemSlope>& slopes, const SpectralOptions& options) {
   TWINDECK_ASSERT(options.frozen_omega > 0.0);
-  const Index strips = along.size(), rows = sensors.rows(), n = std::ssize(slopes);
+  const Index strips = fields.front().size(), rows = sensors.rows(), n = std::ssize(slopes);
   std::vector<MatrixXd> out(static_cast<std::size_t>(rows), MatrixXd::Zero(f_Hz.size(), n));
   const aero::AeroelasticSystem::Block frozen = system.self_excited(speed_m_s, options.frozen_omega);
   const std::vector<ImpedanceParts> parts(slopes.begin(), slopes.end());
@@ -151,12 +160,14 @@ std::vector<MatrixXd> response_spectra_slopes(const aero::AeroelasticSystem& sys
     const MatrixXcd left = factor.solve(sensors.transpose().cast<std::complex<double>>());
     // With t = left' R of a field, C its coherence and s = C t*:  d(t C t*) = 2 Re(dt s), and dt s = -left' dZ Z^-1 (R s) +
     // left' dR s. One solution a sensor serves all slopes.
-    MatrixXcd weights(2 * strips, rows);
+    MatrixXcd weights(load.cols(), rows);
     VectorXd square = VectorXd::Zero(rows);
-    for (const auto& [field, first] : {std::pair{&along, Index{0}}, std::pair{&vertical, strips}}) {
-      const Eigen::VectorXcd point = turbulence_at_points(*field, f_Hz[k]);
+    for (std::size_t c = 0; c < fields.size(); ++c) {
+      const wind::FieldDefinition& field = fields[c];
+      const Index first = static_cast<Index>(c) * strips;
+      const Eigen::VectorXcd point = turbulence_at_points(field, f_Hz[k]);
       const MatrixXcd transfer = (left.transpose() * load.middleCols(first, strips)) * point.asDiagonal();
-      const MatrixXcd through = wind::coherence(*field, f_Hz[k]) * transfer.adjoint();
+      const MatrixXcd through = wind::coherence(field, f_Hz[k]) * transfer.adjoint();
       square += transfer.transpose().cwiseProduct(through).real().colwise().sum().transpose();
       weights.middleRows(first, strips) = point.asDiagonal() * through;
     }

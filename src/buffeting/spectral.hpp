@@ -12,7 +12,8 @@ namespace twindeck::buffeting {
 /// Stationary response in the frequency domain, without time step and seed, with the derivatives of each frequency. It is the
 /// reference for the scatter of time histories and for the error of frozen derivatives.
 ///
-///     S_a(f) = sum over v', w' of |T(f) S_c(f) T(f)*|,   T = (i omega)^p O (-omega² + i omega C(omega) + K(omega))⁻¹ R,
+///     S_a(f) = sum over v', w' (and u') of |T(f) S_c(f) T(f)*|,   T = (i omega)^p O (-omega² + i omega C(omega) + K(omega))⁻¹
+///     R,
 ///
 /// with sensors O, loads R; p = 0 displacements, 2 accelerations.
 struct SpectralOptions {
@@ -31,8 +32,8 @@ struct SpectralOptions {
 struct SystemSlope {
   Eigen::MatrixXd mass, damping, stiffness;  ///< (m × m) the air's part included
   double maxwell = 0.0;                      ///< relative change of the Maxwell units' stiffness and damping
-  Eigen::MatrixXd load;                      ///< (m × 2 n_strips); may be empty
-  double turbulence = 0.0;                   ///< relative change of the standard deviations of v' and w'
+  Eigen::MatrixXd load;                      ///< (m × n_components n_strips); may be empty
+  double turbulence = 0.0;                   ///< relative change of the standard deviations of the gusts
 };
 /// Change of the impedance. @return (m × m)
 [[nodiscard]] Eigen::MatrixXcd impedance_slope(const aero::AeroelasticSystem& system, const SystemSlope& slope,
@@ -42,13 +43,13 @@ struct SystemSlope {
 /// for the first mode at 0.5 %, and less for the wider ones above it.
 [[nodiscard]] Eigen::VectorXd spectral_frequencies(double cutoff_Hz);
 
-/// @param load       (m × 2 n_strips) of load_matrix
-/// @param along, vertical  the field's v' and w' at the strips; frequencies > 0
+/// @param load       (m × n_components n_strips) of load_matrix
+/// @param fields     the components at the strips, in the order of the load's columns; frequencies > 0
 /// @param sensors    (n_sensors × m)
 /// @return [unit²/Hz] one-sided (n_frequencies × n_sensors)
 [[nodiscard]] Eigen::MatrixXd response_spectra(const aero::AeroelasticSystem& system, double speed_m_s,
                                                const Eigen::Ref<const Eigen::MatrixXd>& load,
-                                               const wind::FieldDefinition& along, const wind::FieldDefinition& vertical,
+                                               const std::vector<wind::FieldDefinition>& fields,
                                                const Eigen::Ref<const Eigen::MatrixXd>& sensors,
                                                const Eigen::Ref<const Eigen::VectorXd>& f_Hz,
                                                const SpectralOptions& options = {});
@@ -59,7 +60,7 @@ struct SystemSlope {
 /// @return [unit²/Hz] for each sensor (n_frequencies × n_slopes)
 [[nodiscard]] std::vector<Eigen::MatrixXd> response_spectra_slopes(
     const aero::AeroelasticSystem& system, double speed_m_s, const Eigen::Ref<const Eigen::MatrixXd>& load,
-    const wind::FieldDefinition& along, const wind::FieldDefinition& vertical, const Eigen::Ref<const Eigen::MatrixXd>& sensors,
+    const std::vector<wind::FieldDefinition>& fields, const Eigen::Ref<const Eigen::MatrixXd>& sensors,
     const Eigen::Ref<const Eigen::VectorXd>& f_Hz, const std::vector<SystemSlope>& slopes, const SpectralOptions& options);
 
 /// Square root of the integral over the frequencies (trapezoid). @return (n_columns)

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "aero/aeroelastic_system.hpp"
+#include "wind/component.hpp"
 
 namespace twindeck::buffeting {
 
@@ -27,11 +28,20 @@ struct WindEventSettings {
   double duration_s = 600.0, lead_in_s = 60.0, step_s = 1.0 / 64.0, cutoff_Hz = 8.0;
   double level = 0.95;
   std::string equations = "consistent";
+  bool across = false;                 ///< u' loads the decks too
+  std::string frequencies = "single";  ///< or "double_indexed"
   std::vector<WindEvent> events;
   std::vector<ValidationRun> runs;
   double comfort_vertical_m_s2 = 0.7, comfort_lateral_m_s2 = 0.1;
   double full_model_check_s = 0.0;
 
+  /// v', w' and, where it loads the decks, u': the order of the columns of loads and gusts.
+  [[nodiscard]] std::vector<wind::Component> components() const {
+    std::vector<wind::Component> list = {wind::Component::along, wind::Component::vertical};
+    if (across) list.push_back(wind::Component::across);
+    return list;
+  }
+  [[nodiscard]] bool repeats() const { return frequencies == "single"; }
   [[nodiscard]] aero::Equations equation_choice() const {
     return equations == "as_printed" ? aero::Equations::as_printed : aero::Equations::consistent;
   }

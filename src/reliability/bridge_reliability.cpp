@@ -62,16 +62,17 @@ struct AtMedians {
 /// [-] of the aerodynamic level: step of its central difference. Forces are linear in it, or nearly so.
 constexpr double kLevelStep = 1e-3;
 
-/// What each number of u changes, to first order. @param equations  of the buffeting loads; nothing: no loads are asked for
+/// What each number of u changes, to first order. @param settings  of the buffeting loads; null: no loads are asked for
 std::vector<buffeting::SystemSlope> system_slopes(const AtMedians& at, double speed_m_s, double omega,
-                                                  std::optional<aero::Equations> equations) {
+                                                  const buffeting::WindEventSettings* settings) {
   const aero::AeroelasticSystem above = at.system(std::exp(kLevelStep)), below = at.system(std::exp(-kLevelStep));
   const aero::AeroelasticSystem::Block high = above.self_excited(speed_m_s, omega), low = below.self_excited(speed_m_s, omega);
   const double per_log = 0.5 / kLevelStep;
+  const auto loads = [&](const aero::AeroelasticSystem& of) {
+    return buffeting::load_matrix(of, speed_m_s, settings->equation_choice(), settings->components());
+  };
   MatrixXd load;
-  if (equations)
-    load =
-        per_log * (buffeting::load_matrix(above, speed_m_s, *equations) - buffeting::load_matrix(below, speed_m_s, *equations));
+  if (settings != nullptr) load = per_log * (loads(above) - loads(below));
   std::vector<buffeting::SystemSlope> out;
   for (const UncertainBridge::Change& change : at.bridge.changes()) {
     VariedStructure::Slope of_structure = at.structure.slope(at.varied, change.parameters, change.damping);
@@ -85,7 +86,7 @@ std::vector<buffeting::SystemSlope> system_slopes(const AtMedians& at, double sp
     if (change.aerodynamic != 0.0) {
       slope.damping -= change.aerodynamic * per_log * (high.damping - low.damping);
       slope.stiffness -= change.aerodynamic * per_log * (high.stiffness - low.stiffness);
-      if (equations) slope.load = change.aerodynamic * load;
+      if (settings != nullptr) slope.load = change.aerodynamic * load;
     }
     out.push_back(std::move(slope));
   }
@@ -193,9 +194,9 @@ CriticalSpeed critical_speed(const UncertainBridge& bridge, const aero::WindSett
   CriticalSpeed out{deployment.name, dampers, std::nullopt};
   const std::optional<aero::CriticalPoint> point = aero::first_instability(settings, system).point;
   if (!point) return out;
-  out.speed_m_s = LogLinear{
-      point->speed_m_s,
-      crossing_slopes(system, *point, system_slopes(at, point->speed_m_s, point->motion.lambda.imag(), std::nullopt))};
+  out.speed_m_s =
+      LogLinear{point->speed_m_s,
+                crossing_slopes(system, *point, system_slopes(at, point->speed_m_s, point->motion.lambda.imag(), nullptr))};
   return out;
 }
 
@@ -216,22 +217,18 @@ UncertainMoments uncertain_moments(
     return out;
   }
 
-  const aero::Equations equations = response.settings.equation_choice();
-  const MatrixXd load = buffeting::load_matrix(system, speed_m_s, equations);
-  const auto field = [&](wind::Component component) {
-    wind::FieldDefinition made = buffeting::field_at_nodes(response.bridge, response.turbulence, response.settings.height_m,
-                                                           speed_m_s, component, response.settings.frozen);
-    made.sigma_m_s *= at.variation.turbulence_factor;
-    return made;
-  };
-  const wind::FieldDefinition along = field(wind::Component::along), vertical = field(wind::Component::vertical);
+  const MatrixXd load =
+      buffeting::load_matrix(system, speed_m_s, response.settings.equation_choice(), response.settings.components());
+  std::vector<wind::FieldDefinition> fields =
+      buffeting::fields_at_nodes(response.bridge, response.turbulence, response.settings, speed_m_s);
+  for (wind::FieldDefinition& field : fields) field.sigma_m_s *= at.variation.turbulence_factor;
   buffeting::SpectralOptions options;
   options.derivative = 0;
   options.frozen_omega = frozen;
   options.lowest_omega = turn * kLowestDerivatives_Hz;
   const VectorXd f = buffeting::spectral_frequencies(response.settings.cutoff_Hz);
   const MatrixXd rows = response.rows * at.varied.turn;
-  const MatrixXd spectra = buffeting::response_spectra(system, speed_m_s, load, along, vertical, rows, f, options);
+  const MatrixXd spectra = buffeting::response_spectra(system, speed_m_s, load, fields, rows, f, options);
   for (Index row = 0; row < spectra.cols(); ++row)
     out.mean.push_back(row_moments(response, f, static_cast<std::size_t>(row), spectra.col(row)));
 
@@ -242,8 +239,8 @@ UncertainMoments uncertain_moments(
   out.rate_slope = out.bandwidth_slope = out.variance_slope;
   if (n == 0 || chosen.empty()) return out;
   const std::vector<MatrixXd> slopes =
-      buffeting::response_spectra_slopes(system, speed_m_s, load, along, vertical, rows(chosen, Eigen::all), f,
-                                         system_slopes(at, speed_m_s, frozen, equations), options);
+      buffeting::response_spectra_slopes(system, speed_m_s, load, fields, rows(chosen, Eigen::all), f,
+                                         system_slopes(at, speed_m_s, frozen, &response.settings), options);
   for (std::size_t k = 0; k < out.varied.size(); ++k) {
     const SpectralMoments& m = out.mean[out.varied[k]];
     if (!(m.variance > 0.0 && m.second > 0.0)) continue;

@@ -31,6 +31,10 @@ struct FrictionUnit {
 struct State {
   Eigen::VectorXd displacement, velocity;  ///< (r); empty: at rest
 };
+/// A state with its acceleration: what a further step needs.
+struct Motion {
+  Eigen::VectorXd displacement, velocity, acceleration;  ///< (r)
+};
 struct History {
   Eigen::MatrixXd displacement, acceleration;  ///< (r × n_steps) at the times of the forces
   Eigen::MatrixXd friction_N;                  ///< (n_units × n_steps)
@@ -51,9 +55,10 @@ class Newmark {
   /// dt²/4 K)⁻¹ R.
   /// @param load  R (r × n_inputs), rows at its end missing as above @return (r × n_inputs)
   [[nodiscard]] Eigen::MatrixXd within_a_step(const Eigen::Ref<const Eigen::MatrixXd>& load) const;
-  /// `run` from rest with the accelerations within_a_step(R) w(t). The first one is that at rest, so forces should start at
-  /// zero.
-  [[nodiscard]] History run_prepared(Eigen::MatrixXd alone) const;
+  /// Goes on through some steps of a structure without friction units. A history in pieces needs no memory for all of it.
+  /// @param motion  in: before these steps; out: at the last of them. At rest where it is empty
+  /// @param acceleration  (r × n_steps) in: within_a_step(R) w(t), what the forces alone would do; out: what happens
+  void advance(Motion& motion, Eigen::Ref<Eigen::MatrixXd> acceleration) const;
 
  private:
   void integrate(History& out, Eigen::VectorXd q, Eigen::VectorXd v, Eigen::VectorXd a) const;
@@ -63,6 +68,7 @@ class Newmark {
   std::vector<FrictionUnit> friction_;
   Eigen::MatrixXd inverse_;                  ///< (M + dt/2 C + dt²/4 K)⁻¹
   Eigen::MatrixXd velocity_, displacement_;  ///< inverse_ times C, times K
+  Eigen::MatrixXd panels_;                   ///< both, side by side, in panels of rows
   Eigen::MatrixXd direction_;                ///< (r × n_units)
   Eigen::MatrixXd flexibility_;              ///< (n_units × n_units) dt²/4 D' inverse_ D
 };

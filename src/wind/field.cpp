@@ -8,7 +8,6 @@
 #include <numbers>
 
 #include "core/error.hpp"
-#include "wind/spectrum.hpp"
 
 namespace twindeck::wind {
 
@@ -34,7 +33,7 @@ void check(const FieldDefinition& field) {
 }
 
 double FieldDefinition::spectrum(Index j, double f_Hz) const {
-  return von_karman_spectrum(component, f_Hz, sigma_m_s[j], length_m[j], speed_m_s[j]);
+  return law.at(component, f_Hz, sigma_m_s[j], length_m[j], speed_m_s[j]);
 }
 
 bool FieldDefinition::same_turbulence(Index j, Index k) const {
@@ -58,7 +57,8 @@ Eigen::MatrixXd coherence(const FieldDefinition& field, double f_Hz) {
     for (Index j = k + 1; j < n; ++j) {
       const double scaled = (field.position_m.row(j) - field.position_m.row(k)).cwiseProduct(decay).norm();
       const double speed = 0.5 * (field.speed_m_s[j] + field.speed_m_s[k]);
-      gamma(j, k) = gamma(k, j) = std::exp(-f_Hz * scaled / speed);
+      const double x = f_Hz * scaled / speed;
+      gamma(j, k) = gamma(k, j) = field.coherence_table ? field.coherence_table->at(x) : std::exp(-x);
     }
   }
   return gamma;
@@ -88,7 +88,9 @@ Eigen::MatrixXd coherence_factor(const FieldDefinition& field, double f_Hz) {
   throw InputError({"", 0, "wind field"},
                    fmt::format("has a coherence that is not positive definite at {} Hz (found at point {} of {})", f_Hz, j + 1,
                                gamma.rows()),
-                   "take away points that coincide, or give neighbouring points more alike mean speeds");
+                   field.coherence_table
+                       ? "give a coherence that falls ever more slowly with the separation, as exp(-x) does"
+                       : "take away points that coincide, or give neighbouring points more alike mean speeds");
 }
 
 }  // namespace twindeck::wind

@@ -1,8 +1,11 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <memory>
 
+#include "wind/coherence_table.hpp"
 #include "wind/component.hpp"
+#include "wind/spectrum.hpp"
 
 namespace twindeck::wind {
 
@@ -22,6 +25,8 @@ struct FieldDefinition {
   Eigen::VectorXd length_m;     ///< (n) along-wind length scales
   PerComponent decay{};         ///< C_a: along, across, vertical
   bool frozen = true;
+  Spectrum law;                                           ///< S_j(f)
+  std::shared_ptr<const CoherenceTable> coherence_table;  ///< in place of the exponential law of gamma; none: that law
 
   [[nodiscard]] Eigen::Index size() const { return position_m.rows(); }
   /// S_j(f) of one point [(m/s)²/Hz].
@@ -44,7 +49,7 @@ void check(const FieldDefinition& field);
 /// diag(sqrt(S_j) drift_j) L with a real L.
 /// @return (n × n) lower triangular, rows of unit length
 /// @throws InputError  with the point and the frequency at which the coherence is not positive definite (two points that
-///                     coincide, or speeds that differ too much for the mean of two to give a coherence)
+///                     coincide, speeds that differ too much for the mean of two to give a coherence, or a table that is none)
 [[nodiscard]] Eigen::MatrixXd coherence_factor(const FieldDefinition& field, double f_Hz);
 
 }  // namespace twindeck::wind

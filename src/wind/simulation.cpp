@@ -36,12 +36,15 @@ Simulator::Simulator(FieldDefinition field, const SimulationOptions& options) : 
         "lengthen the record or raise the rate");
   }
 
-  const Index n_anchors = options_.anchors == 0 ? n_waves_ : std::min<Index>(options_.anchors, n_waves_);
-  const bool every = n_anchors == n_waves_;
-  const double lowest = df_, highest = df_ * static_cast<double>(n_waves_);
+  const bool is_double = options_.frequencies == Frequencies::double_indexed;
+  n_lines_ = is_double ? n_waves_ * field_.size() : n_waves_;
+  line_Hz_ = is_double ? df_ / static_cast<double>(field_.size()) : df_;
+  const Index n_anchors = options_.anchors == 0 ? n_lines_ : std::min<Index>(options_.anchors, n_lines_);
+  const bool every = n_anchors == n_lines_;
+  const double lowest = line_Hz_, highest = df_ * static_cast<double>(n_waves_);
   for (Index a = 0; a < n_anchors; ++a) {
     const double part = static_cast<double>(a) / static_cast<double>(n_anchors - 1);
-    anchor_Hz_.push_back(every ? df_ * static_cast<double>(a + 1) : lowest * std::pow(highest / lowest, part));
+    anchor_Hz_.push_back(every ? line_Hz_ * static_cast<double>(a + 1) : lowest * std::pow(highest / lowest, part));
   }
   anchor_Hz_.back() = highest;
   for (const double f : anchor_Hz_) factor_.push_back(coherence_factor(field_, f));
@@ -49,19 +52,23 @@ Simulator::Simulator(FieldDefinition field, const SimulationOptions& options) : 
   if (!every) {
     for (std::size_t a = 1; a < factor_.size(); ++a) pair_.emplace_back(factor_[a - 1], factor_[a]);
   }
-  share_.resize(n_waves_);
-  for (Index l = 1; l <= n_waves_; ++l) {
-    const Bracket at = bracket(df_ * static_cast<double>(l));
+  share_.resize(n_lines_);
+  for (Index l = 1; l <= n_lines_; ++l) {
+    const Bracket at = bracket(line_Hz_ * static_cast<double>(l));
     share_[l - 1] = at.share;
+    if (is_double) {
+      lower_.push_back(at.lower);
+      continue;
+    }
     const auto pair = static_cast<std::size_t>(at.lower);
     if (stretch_.empty() || stretch_.back().pair != pair || stretch_.back().count == kLanes) stretch_.push_back({pair, l, 0});
     ++stretch_.back().count;
   }
   for (Index j = 0; j < field_.size(); ++j) {
     if (j == 0 || !field_.same_turbulence(j, j - 1)) {
-      amplitude_.conservativeResize(n_waves_, amplitude_.cols() + 1);
-      for (Index l = 1; l <= n_waves_; ++l)
-        amplitude_(l - 1, amplitude_.cols() - 1) = std::sqrt(2.0 * df_ * field_.spectrum(j, df_ * static_cast<double>(l)));
+      amplitude_.conservativeResize(n_lines_, amplitude_.cols() + 1);
+      for (Index l = 1; l <= n_lines_; ++l)
+        amplitude_(l - 1, amplitude_.cols() - 1) = std::sqrt(2.0 * df_ * field_.spectrum(j, line_Hz_ * static_cast<double>(l)));
     }
     kind_.push_back(amplitude_.cols() - 1);
   }
@@ -130,7 +137,55 @@ void Simulator::put_waves(std::uint64_t seed, MatrixXd& velocity) const {
   parallel_for_with(stretch_.size(), room, put_stretch, kStretches);
 }
 
-MatrixXd Simulator::sample(std::uint64_t seed) const {
+void Simulator::put_double_indexed(std::uint64_t seed, Index j, std::complex<double>* lines) const {
+  const Index n = field_.size();
+  const double turns = field_.frozen ? line_Hz_ * field_.position_m(j, 0) / field_.speed_m_s.mean() : 0.0;  // of k = 1
+  std::fill(lines, lines + n_lines_, 0.0);
+  double real[kLanes], imaginary[kLanes];
+  for (Index first = 1; first <= n_waves_; first += kLanes) {
+    for (Index m = 0; m <= j; ++m) {
+      waves(seed, m, first, real, imaginary);
+      for (Index l = first; l < std::min<Index>(first + kLanes, n_waves_ + 1); ++l) {
+        const Index line = (l - 1) * n + m;
+        const auto low = static_cast<std::size_t>(lower_[static_cast<std::size_t>(line)]);
+        const double share = share_[line];
+        double h = (1.0 - share) * factor_[low](j, m) + share * factor_[low + 1](j, m);
+        if (!pair_.empty()) h /= std::sqrt(1.0 - (1.0 - share) * share * 2.0 * pair_[low].apart(j));  // rows back to length one
+        double cosine = 1.0, sine = 0.0;
+        const double turn = turns * static_cast<double>(line + 1);
+        unit_wave(std::abs(turn), cosine, sine);
+        lines[line] = 0.5 * amplitude_(line, kind_[static_cast<std::size_t>(j)]) * h *
+                      std::complex<double>(cosine, turn < 0.0 ? sine : -sine) *
+                      std::complex<double>(real[l - first], imaginary[l - first]);
+      }
+    }
+  }
+}
+
+MatrixXd Simulator::double_indexed_sample(std::uint64_t seed, Index before) const {
+  const Index n = field_.size(), period = n * n_samples_;
+  MatrixXd velocity(before + n_samples_, n);
+  struct Room {
+    signal::RealFft fft;
+    VectorXd values;  ///< of a period, the lines before them in the same memory
+  };
+  parallel_for_with(
+      n,
+      [&] {
+        return Room{signal::RealFft(period), VectorXd(period)};
+      },
+      [&](Room& own, Index j) {
+        double* values = own.values.data();
+        auto* lines = reinterpret_cast<std::complex<double>*>(values);
+        put_double_indexed(seed, j, lines);
+        own.fft.sum_of_waves(lines, 1, n_lines_, values);
+        for (Index i = 0; i < velocity.rows(); ++i) velocity(i, j) = values[((i - before) % period + period) % period];
+      });
+  return velocity;
+}
+
+MatrixXd Simulator::sample(std::uint64_t seed, Index before) const {
+  if (options_.frequencies == Frequencies::double_indexed) return double_indexed_sample(seed, before);
   MatrixXd velocity(n_samples_, field_.size());
   put_waves(seed, velocity);
   parallel_for_with(
@@ -139,7 +194,10 @@ MatrixXd Simulator::sample(std::uint64_t seed) const {
         double* own = velocity.col(j).data();
         fft.sum_of_waves(reinterpret_cast<const std::complex<double>*>(own), 1, n_waves_, own);
       });
-  return velocity;
+  if (before == 0) return velocity;
+  MatrixXd out(before + n_samples_, field_.size());
+  for (Index i = 0; i < out.rows(); ++i) out.row(i) = velocity.row(((i - before) % n_samples_ + n_samples_) % n_samples_);
+  return out;
 }
 
 }  // namespace twindeck::wind

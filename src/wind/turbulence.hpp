@@ -1,9 +1,12 @@
 #pragma once
 
 #include <array>
+#include <memory>
 #include <string>
 
+#include "wind/coherence_table.hpp"
 #include "wind/component.hpp"
+#include "wind/spectrum.hpp"
 
 namespace twindeck::wind {
 
@@ -24,6 +27,8 @@ struct TurbulenceSet {
   PerComponent scale_ratio{};     ///< length scale over that of the along-wind component
   /// Decay C of Eq. (17) of each component with separations along, across and vertical.
   std::array<PerComponent, 3> decay{};
+  std::array<Spectrum, 3> spectrum{};                                ///< of each component
+  std::array<std::shared_ptr<const CoherenceTable>, 3> coherence{};  ///< of each component; none: exp(-x)
 };
 
 /// Standard deviation of a component [m/s] at height z in a mean wind of V(z).

@@ -34,13 +34,36 @@ class Reliability(unittest.TestCase):
         self.step("s10_reliability", *NONE, *SMALL)
         step_7 = [row for row in self.read("critical.csv", "s7_aerodynamics") if row["model"] == "A" and float(row["structural_damping_pct"]) == 2.0][0]
         self.assertAlmostEqual(float(self.critical("s10_reliability")["speed_m_s"]) / float(step_7["V_cr_m_s"]), 1.0, delta=1e-6)
+        self.compare("normal")
+
+    def compare(self, run):
+        """RMS values of step 8 in the frequency domain against step 10's deviations. @return  their sum"""
         responses = {(row["channel"], row["direction"]): float(row["deviation"]) for row in self.read("responses.csv", "s10_reliability") if float(row["speed_m_s"]) == 8.0}
-        compared = 0
-        for row in self.read("rms.csv"):
-            if row["run"] == "normal" and float(row["spectral_rms_m_s2"]) > 1e-9:
-                self.assertAlmostEqual(responses[row["channel"], row["direction"]] / float(row["spectral_rms_m_s2"]), 1.0, delta=1e-6)
-                compared += 1
-        self.assertGreaterEqual(compared, 2)
+        rms = {(row["channel"], row["direction"]): float(row["spectral_rms_m_s2"]) for row in self.read("rms.csv") if row["run"] == run}
+        compared = {key: value for key, value in rms.items() if value > 1e-9}
+        for key, value in compared.items():
+            self.assertAlmostEqual(responses[key] / value, 1.0, delta=1e-6)
+        self.assertGreaterEqual(len(compared), 2)
+        return sum(compared.values())
+
+    def test_the_gusts_laws_are_those_of_step_8(self):
+        """A wind that is not normal to the deck, so that u' counts; spectra, coherence and u' of step 8's configuration."""
+        config = self.folder / "study/s7_aerodynamics.toml"
+        config.write_text(config.read_text().replace("direction_deg = 90.0", "direction_deg = 60.0"))
+        self.step("s7_aerodynamics")
+        own = self.folder / "coherence.csv"
+        own.write_text("component,reduced_separation,coherence\n" +
+                       "".join(f"{c},{0.1 * i:.1f},{math.exp(-0.1 * i):.9f}\n" for c in "vuw" for i in range(60)))
+        validation = self.folder / "study/s8_validation.toml"
+        plain, sums = validation.read_text(), []
+        for laws in ("", f'spectrum = "kaimal"\ncoherence = "table"\ncoherence_file = "{own}"\n',
+                     f'spectrum = "kaimal"\ncoherence = "table"\ncoherence_file = "{own}"\nacross = true\n'):
+            validation.write_text(laws + plain)
+            self.step("s8_validation")
+            self.step("s10_reliability", *NONE, *SMALL, "--set", "response_model=C")
+            sums.append(self.compare("cosine"))
+        self.assertGreater(abs(sums[1] / sums[0] - 1.0), 0.01)
+        self.assertGreater(sums[2], sums[1])
 
     def test_the_slope_on_the_damping_is_that_of_step_7(self):
         self.step("s10_reliability", *SMALL, *NONE, "--set", "damping_variation=0.01")

@@ -116,8 +116,9 @@ TEST(BuffetingBeam, SpectralResponseMeetsJointAcceptance) {
   for (const Index points : {30, 60, 120}) {
     const aero::AeroelasticSystem system = beam.system(points);
     const MatrixXd load = load_matrix(system, beam.speed, aero::Equations::consistent);
-    const MatrixXd s = response_spectra(system, beam.speed, load, beam.field(points, wind::Component::along),
-                                        beam.field(points, wind::Component::vertical), beam.sensor(), f, displacements);
+    const MatrixXd s = response_spectra(
+        system, beam.speed, load, {beam.field(points, wind::Component::along), beam.field(points, wind::Component::vertical)},
+        beam.sensor(), f, displacements);
     excess.push_back(band_rms(f, s)[0] / beam.rms(0, 8.0) - 1.0);
     verification::record("Buffeting of a beam, " + std::to_string(points) + " points, displacement RMS [m]", beam.rms(0, 8.0),
                          (1.0 + excess.back()) * beam.rms(0, 8.0));
@@ -254,7 +255,7 @@ TEST(BuffetingIabse, FlatPlateHasThePublishedSpectra) {
       return chi * chi;
     };
     const MatrixXd load = load_matrix(system, v, aero::Equations::consistent);
-    const MatrixXd s = response_spectra(system, v, load, none, gusts, sensors, nine, options);
+    const MatrixXd s = response_spectra(system, v, load, {none, gusts}, sensors, nine, options);
     for (Index i = 0; i < 9; ++i) {
       // Three printed digits, and the last two at 75 m/s, 3 % below flutter, where a frequency off by 0.1 % moves a flank by
       // more.
@@ -264,7 +265,7 @@ TEST(BuffetingIabse, FlatPlateHasThePublishedSpectra) {
           << v << " m/s, torsion at " << nine[i];
     }
     const VectorXd f = frequencies(1e-3, 2.0, 6000);  // from the lowest published frequency
-    const VectorXd rms_all = band_rms(f, response_spectra(system, v, load, none, gusts, sensors, f, options));
+    const VectorXd rms_all = band_rms(f, response_spectra(system, v, load, {none, gusts}, sensors, f, options));
     const double rms = rms_all[0];
     const std::string where = " at " + std::to_string(static_cast<int>(v)) + " m/s [m]";
     verification::record("IABSE flat plate, heave RMS" + where, target.heave_rms, rms);

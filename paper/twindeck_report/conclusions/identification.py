@@ -4,6 +4,8 @@ from ..identified import WITH, WITHOUT, modes_of, shapes_of, mac, with_dampers, 
 
 HIGH = "with_dampers_high"  # the windy day, on which dampers slide
 CLOSE_PAIR = (6, 7)  # preliminary modes "coupled at about 1.50 Hz"
+COUPLES = (CLOSE_PAIR, (8, 9))  # "the couples of eigenmodes at about 1.50 and 1.70 Hz" of Table 2
+SIMILAR = (0.02, 0.9)  # [-] of a frequency, a MAC: the criterion of stabilisation for frequencies, and shapes that are one mode's
 CHANGE = 0.05  # [-] of a frequency: more is a change, less is none; the paper's first mode changes by 0.23, its second by 0.014
 
 
@@ -39,6 +41,30 @@ def _blind_test(study, result, _):
     missed = [f"{setup} misses {_modes(modes)}" for setup, modes in never.items() if modes]
     whole = sum(not modes for modes in never.values())
     return not missed, f"{whole} of {len(never)} setups show all; " + "; ".join(missed) if missed else f"all {len(never)} setups show all"
+
+
+def _couples(study, result, _):
+    """Each setup finds both modes of both couples."""
+    table = _blind(study)
+    if table is None or not {m for couple in COUPLES for m in couple} <= set(table["mode"]):
+        return None, ""
+    found = {setup: set(own[own["found"] == 1]["mode"]) for setup, own in table.groupby("setup", sort=False)}
+    merged = [f"{setup} misses {_modes(sorted(missing))}" for setup, modes in found.items()
+              if (missing := {m for couple in COUPLES for m in couple} - modes)]
+    return not merged, "; ".join(merged) if merged else f"all {len(found)} setups find both modes of both couples"
+
+
+def _free_decays(study, result, _):
+    """Each mode of the free decays, by ERA, is like an ambient one of its condition, by SSI, in frequency and shape."""
+    campaign = study.campaign()
+    if "s3_identification" not in campaign.steps() or not (campaign.results / "s3_identification/decays.csv").is_file():
+        return None, ""
+    table = campaign.step_csv("s3_identification/decays.csv", ["condition", "setup", "mode", "frequency_Hz", "ambient_frequency_Hz", "mac"])
+    if table.empty:
+        return None, ""
+    apart = (table["frequency_Hz"] / table["ambient_frequency_Hz"] - 1.0).abs()
+    alike = (apart < SIMILAR[0]) & (table["mac"] > SIMILAR[1])  # a mode without an ambient one is not alike
+    return bool(alike.all()), f"{int(alike.sum())} of {len(table)} modes of free decays within {100 * SIMILAR[0]:.0f} % and above a MAC of {SIMILAR[1]}"
 
 
 def _modes(modes) -> str:
@@ -130,5 +156,5 @@ def _resonance(study, result, _):
     return (None, "") if len(found) < 2 else (all(c.inside for c in found), " and ".join(f"{c.ours:.3f}" for c in found))
 
 
-RULES = {"scores": _scores, "blind test": _blind_test, "two peaks": _two_peaks, "ten modes": _ten_modes, "damping": _damping,
+RULES = {"scores": _scores, "blind test": _blind_test, "couples": _couples, "free decays": _free_decays, "two peaks": _two_peaks, "ten modes": _ten_modes, "damping": _damping,
          "first mode changes most": _first_mode_changes_most, "threshold": _threshold, "resonance": _resonance}

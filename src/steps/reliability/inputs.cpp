@@ -5,12 +5,12 @@
 #include <algorithm>
 #include <cmath>
 
-#include "aero_io/turbulence_sets.hpp"
 #include "buffeting/bridge_in_wind.hpp"
 #include "core/error.hpp"
 #include "io/csv.hpp"
 #include "reliability/bridge_reliability.hpp"
 #include "steps/shared/model_source.hpp"
+#include "steps/wind/turbulence_files.hpp"
 
 namespace twindeck::steps {
 namespace {
@@ -192,8 +192,7 @@ ReliabilityInputs read_reliability_inputs(const ReliabilityConfig& config, runne
   fields.text("model", model_of_8, "of step 8").text("campaign", campaign_of_8, "of step 8");
   fields.load(context.input(context.study / "s8_validation.toml"));
   fields.require();
-  wind::TurbulenceSet turbulence =
-      aero_io::read_turbulence_set(context.input(validation.turbulence_file), validation.turbulence_set);
+  wind::TurbulenceSet turbulence = read_turbulence(validation, context);
   std::vector<aero::DeckAerodynamics> data = read_deck_aerodynamics(aerodynamics, context);
   const double level = fitted_level(context, validation.set);
   std::vector<std::string> models = config.models;

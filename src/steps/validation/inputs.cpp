@@ -2,11 +2,11 @@
 
 #include <string>
 
-#include "aero_io/turbulence_sets.hpp"
 #include "buffeting/bridge_in_wind.hpp"
 #include "core/error.hpp"
 #include "steps/shared/model_source.hpp"
 #include "steps/wind/deck_files.hpp"
+#include "steps/wind/turbulence_files.hpp"
 
 namespace twindeck::steps {
 
@@ -15,7 +15,7 @@ ValidationInputs read_validation_inputs(const ValidationConfig& config, runner::
     throw InputError({"", 0, config.events.empty() ? "event" : "run"}, "none is given", "add [[event]] and [[run]] tables");
   }
   ValidationInputs read;
-  read.turbulence = aero_io::read_turbulence_set(context.input(config.turbulence_file), config.turbulence_set);
+  read.turbulence = read_turbulence(config, context);
   read.aerodynamics = read_step_7(config.aerodynamics, context);
   read.aerodynamics.n_modes = config.n_modes;
   for (const buffeting::ValidationRun& run : config.runs)

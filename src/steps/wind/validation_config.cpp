@@ -1,8 +1,70 @@
 #include "steps/wind/validation_config.hpp"
 
+#include <fmt/format.h>
+
+#include <optional>
+#include <utility>
+
 #include "io/limits.hpp"
 
 namespace twindeck::steps {
+namespace {
+
+/// The file of a law is given where the law is `table`, and only there.
+std::optional<io::FieldTable::Broken> file_without_law(const std::string& key, const std::string& law,
+                                                       const std::string& file) {
+  if ((law == "table") == !file.empty()) return std::nullopt;
+  if (file.empty())
+    return io::FieldTable::Broken{key + "_file", "is not given, and the " + key + " is a table", "name the CSV file"};
+  return io::FieldTable::Broken{key + "_file", "is given, and the " + key + " is " + law, "write " + key + " = \"table\""};
+}
+
+/// Three decays of a component, and only where a law reads them.
+std::optional<io::FieldTable::Broken> wrong_decays(const std::string& letter, const std::vector<double>& decay,
+                                                   const std::string& law) {
+  if (decay.empty() || (decay.size() == 3 && law != "davenport")) return std::nullopt;
+  if (law == "davenport")
+    return io::FieldTable::Broken{"decay_" + letter, "is given, and the coherence is davenport, which has one decay",
+                                  "give davenport_decay, or write coherence = \"exponential\""};
+  return io::FieldTable::Broken{"decay_" + letter, fmt::format("has {} numbers, expected three", decay.size()),
+                                "give the decays with separations along, across and vertical"};
+}
+
+/// Keys of the turbulence: its set and its laws.
+void add_turbulence(io::FieldTable& t, ValidationConfig& c) {
+  t.text("turbulence_file", c.turbulence_file, "file of turbulence sets")
+      .text("turbulence_set", c.turbulence_set, "which of them")
+      .choice(
+          "spectrum", c.spectrum, {"von_karman", "kaimal", "en_1991_1_4", "table"},
+          "spectrum of the turbulence over f L / V: von Karman's, Kaimal's (IEC 61400-1), that of EN 1991-1-4 B.1, or a table")
+      .text("spectrum_file", c.spectrum_file, "table: file with component (v, u, w), f_L_over_V, f_S_over_variance")
+      .choice("coherence", c.coherence, {"exponential", "davenport", "table"},
+              "coherence of two points over x = f sqrt(sum (C d)^2) / V: exp(-x) with a decay C a component and direction; "
+              "davenport: the same with one decay of the distance for all; or a table over x")
+      .text("coherence_file", c.coherence_file, "table: file with component (v, u, w), reduced_separation (x), coherence")
+      .number("davenport_decay", c.davenport_decay, "", io::positive(), "davenport: the decay; Davenport (1961) found about 7")
+      .numbers("decay_v", c.decay_v, "", io::positive(),
+               "decays C of v' with separations along the wind, across it and vertical; empty: the set's. All 1: x is f d / V")
+      .numbers("decay_u", c.decay_u, "", io::positive(), "the same of u', across the wind")
+      .numbers("decay_w", c.decay_w, "", io::positive(), "the same of w', vertical")
+      .boolean("across", c.across, "gusts u' across the wind load the decks too: they turn the wind in plan")
+      .choice("frequencies", c.frequencies, {"single", "double_indexed"},
+              "of the waves: the same for all streams, which repeat after the record's length; or Deodatis' own, which are "
+              "ergodic over the record's length times the number of points (about ten times the time)")
+      .rule([&c] { return file_without_law("spectrum", c.spectrum, c.spectrum_file); })
+      .rule([&c] { return file_without_law("coherence", c.coherence, c.coherence_file); })
+      .rule([&c] { return wrong_decays("v", c.decay_v, c.coherence); })
+      .rule([&c] { return wrong_decays("u", c.decay_u, c.coherence); })
+      .rule([&c] { return wrong_decays("w", c.decay_w, c.coherence); })
+      .rule([&c]() -> std::optional<io::FieldTable::Broken> {
+        if (c.repeats() || c.anchors > 0) return std::nullopt;
+        return io::FieldTable::Broken{"anchors",
+                                      "is 0, and double-indexed frequencies are too many to factorise the coherence at each",
+                                      "give at least 2; 40 is the default"};
+      });
+}
+
+}  // namespace
 
 io::FieldTable ValidationConfig::fields() {
   events.reserve(64);  // rows are bound to their fields, so they must not move
@@ -10,10 +72,9 @@ io::FieldTable ValidationConfig::fields() {
   io::FieldTable t;
   t.text("aerodynamics", aerodynamics,
          "configuration of step 7, whose decks, data, wind direction and damping hold here; empty: the study's")
-      .text("set", set, "aerodynamic set: standin or quasi_steady, at the level that step 7 fitted")
-      .text("turbulence_file", turbulence_file, "file of turbulence sets")
-      .text("turbulence_set", turbulence_set, "which of them")
-      .number("height", height_m, "m", io::positive(), "height of the decks above ground, for intensity and length scale")
+      .text("set", set, "aerodynamic set: standin or quasi_steady, at the level that step 7 fitted");
+  add_turbulence(t, *this);
+  t.number("height", height_m, "m", io::positive(), "height of the decks above ground, for intensity and length scale")
       .boolean("frozen", frozen, "gusts drift with the wind (Taylor's hypothesis): points behind each other meet them later")
       .boolean("dampers", dampers, "the dampers are fitted")
       .integer("seeds", seeds, {2.0, 1000.0}, "samples of the turbulence, each of all events and runs")

@@ -56,8 +56,9 @@ const std::vector<MatrixXd>& four_samples() {
 
 /// Checks of four seeds whose gusts are changed by `change`.
 std::map<std::string, FieldCheck> checks_of(const std::function<void(MatrixXd&)>& change) {
-  const wind::Simulator along = simulator_of(wind::Component::along, 2.0), vertical = simulator_of(wind::Component::vertical);
-  FieldStatistics statistics("August", along, vertical, kStatisticsSeeds);
+  const std::vector<wind::Simulator> simulators = {simulator_of(wind::Component::along, 2.0),
+                                                   simulator_of(wind::Component::vertical)};
+  FieldStatistics statistics("August", simulators, kStatisticsSeeds);
   for (long seed = kStatisticsSeeds - 1; seed >= 0; --seed) {  // in any order
     MatrixXd gusts = four_samples()[static_cast<std::size_t>(seed)];
     change(gusts);

@@ -77,5 +77,38 @@ TEST(BuffetingLoads, TakeTheFactorsOfTheRule) {
   EXPECT_LT((of("H", Equations::consistent).row(2) - a.row(2) / c).norm(), 1e-10);
 }
 
+TEST(BuffetingLoads, AGustAcrossTurnsTheWind) {
+  // Central differences of Eq. (7), as global forces, in a wind whose direction and speed are those of V and u' together.
+  const aero::Wind wind;
+  const double speed = 20.0, step = 1e-3;
+  for (const double yaw : {0.0, 0.6, -0.4}) {
+    const Eigen::Vector3d tangent(std::cos(yaw), -std::sin(yaw), 0.0);
+    for (const std::string name : {"A", "C", "D", "G", "H", "I"}) {
+      const aero::YawRule& rule = aero::published_yaw_rule(name);
+      const auto force = [&](double u) -> Eigen::VectorXd {
+        const aero::Wind turned{wind.density_kg_m3, Eigen::Vector3d(-u, speed, 0.0).normalized()};  // across = up × along = -X
+        aero::Strip strip = aero::make_strip("deck", 0, 0.0, 5.0, Eigen::Vector3d::Zero(), tangent, turned);
+        strip.alpha_rad = 0.02;
+        return aero::kinematics(strip, rule.axes, turned).transpose() *
+               aero::static_force(section(), strip, rule, wind.density_kg_m3, std::hypot(speed, u));
+      };
+      aero::Strip strip = strip_at(yaw, wind);
+      strip.alpha_rad = 0.02;
+      const Eigen::VectorXd found = across_load(section(), strip, rule, wind, speed);
+      const Eigen::VectorXd expected = (force(step) - force(-step)) / (2.0 * step);
+      EXPECT_LT((found - expected).norm(), 1e-6 * force(0.0).norm() / speed) << name << " at " << yaw;
+      // Wind taken along the normal knows no direction; along it, a cosine is level.
+      EXPECT_EQ(found.norm() > 0.0, rule.axes == aero::ForceAxes::wind || (name != "A" && yaw != 0.0)) << name << " at " << yaw;
+      const Eigen::MatrixXd all = strip_load(section(), strip, rule, wind, speed, Equations::consistent,
+                                             {wind::Component::along, wind::Component::vertical, wind::Component::across});
+      EXPECT_EQ((all.col(2) - found).norm(), 0.0);
+      EXPECT_EQ((all.leftCols(2) - aero::kinematics(strip, rule.axes, wind).transpose() *
+                                       buffeting_factor(section(), strip, rule, 1.25, speed, Equations::consistent))
+                    .norm(),
+                0.0);
+    }
+  }
+}
+
 }  // namespace
 }  // namespace twindeck::buffeting

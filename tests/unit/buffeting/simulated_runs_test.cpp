@@ -119,5 +119,49 @@ TEST(SimulatedRuns, NoValuesOfAnUnstableBridge) {
   EXPECT_TRUE(above.checks.empty());
 }
 
+// u' does nothing to a deck that takes all wind as normal. In a skew wind it changes the component along the normal of one that
+// takes that alone (C), so that its variance adds to those of v' and w'. Its samples are checked as those of the others.
+TEST(SimulatedRuns, GustsAcrossAddToASkewWind) {
+  GustyBeam beam;
+  beam.aerodynamics.direction_deg = 55.0;  // 35 degrees from the normal
+  beam.config.runs = {{"NS1", "A"}, {"C", "C"}};
+  const SimulatedEvent without = simulated(beam);
+  beam.config.across = true;
+  const SimulatedEvent with = simulated(beam);
+  EXPECT_EQ(with.checks.size(), 12U);
+  EXPECT_EQ(with.checks[8].quantity, "sigma_u_mean_m_s");
+  EXPECT_LT((with.runs[0].rms - without.runs[0].rms).norm(), 1e-12 * without.runs[0].rms.norm());
+  const Eigen::VectorXd before = without.runs[1].spectral_rms, after = with.runs[1].spectral_rms;
+  for (const Eigen::Index row : {1, 2}) {                // along the normal and vertical
+    EXPECT_GT(after[row], 1.0001 * before[row]) << row;  // u' pulls with 2 C_L alone, w' with C_L'
+    EXPECT_NEAR(std::sqrt(with.runs[1].rms.row(row).squaredNorm() / 3.0) / after[row], 1.0, 0.36) << row;
+  }
+}
+
+// The same law of the gusts by other frequencies: RMS values scatter about the same spectral ones, which stay.
+TEST(SimulatedRuns, DoubleIndexedFrequenciesHaveTheSameSpectra) {
+  GustyBeam beam;
+  const RunResult single = simulated(beam).runs[0];
+  beam.config.frequencies = "double_indexed";
+  const SimulatedEvent found = simulated(beam);
+  EXPECT_EQ(found.runs[0].spectral_rms, single.spectral_rms);
+  EXPECT_GT((found.runs[0].rms - single.rms).norm(), 0.01 * single.rms.norm());
+  for (const Eigen::Index row : {2, 5})  // as MeanSquareIsTheIntegralOfTheSpectrum
+    EXPECT_NEAR(std::sqrt(found.runs[0].rms.row(row).squaredNorm() / 3.0) / single.spectral_rms[row], 1.0, 0.36) << row;
+  for (const FieldCheck& check : found.checks) EXPECT_LT(std::abs(check.found - check.target), check.allowed) << check.quantity;
+}
+
+// Another spectrum and another coherence are those of the field; half the decays load a span more evenly.
+TEST(SimulatedRuns, TakeTheLawsOfTheSet) {
+  GustyBeam beam;
+  const RunResult von_karman = simulated(beam).runs[0];
+  for (wind::Spectrum& spectrum : beam.set.spectrum) spectrum.law = wind::SpectrumLaw::kaimal;
+  const RunResult kaimal = simulated(beam).runs[0];
+  EXPECT_GT((kaimal.spectral_rms - von_karman.spectral_rms).norm(), 0.01 * von_karman.spectral_rms.norm());
+  for (wind::PerComponent& decay : beam.set.decay)
+    for (double& c : decay) c *= 0.5;
+  EXPECT_GT(simulated(beam).runs[0].spectral_rms[2], 1.05 * kaimal.spectral_rms[2]);
+}
+
 }  // namespace
 }  // namespace twindeck::buffeting

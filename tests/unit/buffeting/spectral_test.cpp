@@ -77,7 +77,7 @@ TEST(ResponseSpectra, OneDegreeOfFreedomHasItsClosedForm) {
     SpectralOptions options;
     options.derivative = derivative;
     const MatrixXd found =
-        response_spectra(no_self_excitation(), kSpectralSpeed, load, along, vertical, sensors, kThreeFrequencies, options);
+        response_spectra(no_self_excitation(), kSpectralSpeed, load, {along, vertical}, sensors, kThreeFrequencies, options);
     ASSERT_EQ(found.rows(), 3);
     for (Index k = 0; k < 3; ++k) {
       const double f = kThreeFrequencies[k], omega = 2 * std::numbers::pi * f;
@@ -102,7 +102,7 @@ TEST(ResponseSpectra, TwoPointsInTheLimitsOfCoherence) {
     auto along = gusts_at({{0, 0}, second}, wind::Component::along, 2.0, decay),
          vertical = gusts_at({{0, 0}, second}, wind::Component::vertical, 1.2, decay);
     along.frozen = vertical.frozen = frozen;
-    return response_spectra(no_self_excitation(), kSpectralSpeed, load, along, vertical, sensor, at, displacement)(0, 0);
+    return response_spectra(no_self_excitation(), kSpectralSpeed, load, {along, vertical}, sensor, at, displacement)(0, 0);
   };
   const double unit = transfer_square(f) * gust_spectrum(wind::Component::vertical, f, 1.2);
   EXPECT_NEAR(of({0, 30}, 0.0, true) / unit, 25.0, 1e-11);
@@ -122,10 +122,10 @@ TEST(ResponseSpectra, AdmittanceMultipliesTheSpectrum) {
   const MatrixXd load = Eigen::RowVector2d(3.0, -5.0), sensor = MatrixXd::Ones(1, 1);
   SpectralOptions options;
   const MatrixXd whole =
-      response_spectra(no_self_excitation(), kSpectralSpeed, load, along, vertical, sensor, kThreeFrequencies, options);
+      response_spectra(no_self_excitation(), kSpectralSpeed, load, {along, vertical}, sensor, kThreeFrequencies, options);
   options.admittance = [](double f) { return 1.0 / (1.0 + f); };
   const MatrixXd less =
-      response_spectra(no_self_excitation(), kSpectralSpeed, load, along, vertical, sensor, kThreeFrequencies, options);
+      response_spectra(no_self_excitation(), kSpectralSpeed, load, {along, vertical}, sensor, kThreeFrequencies, options);
   for (Index k = 0; k < 3; ++k) EXPECT_NEAR(less(k, 0) / whole(k, 0), 1.0 / (1.0 + kThreeFrequencies[k]), 1e-13);
 }
 
@@ -136,7 +136,8 @@ TEST(ResponseSpectra, DerivativesAreThoseOfTheFrequencyAskedFor) {
   const MatrixXd load = Eigen::RowVector2d(0.0, 1.0), sensor = MatrixXd::Ones(1, 1);
   const auto system = one_heave(std::make_shared<LinearHeave>());
   const auto expect = [&](const SpectralOptions& options, const std::function<double(double)>& omega_of) {
-    const MatrixXd found = response_spectra(system, kSpectralSpeed, load, along, vertical, sensor, kThreeFrequencies, options);
+    const MatrixXd found =
+        response_spectra(system, kSpectralSpeed, load, {along, vertical}, sensor, kThreeFrequencies, options);
     for (Index k = 0; k < 3; ++k) {
       const double f = kThreeFrequencies[k], omega = 2 * std::numbers::pi * f, h1 = kSpectralSpeed / (omega_of(omega) * 4.5);
       const Complex wind(0.0, omega * 0.5 * 1.25 * kSpectralSpeed * 4.5 * h1 / 1500.0);
@@ -161,7 +162,7 @@ TEST(ResponseSpectra, MaxwellUnitsAreAComplexStiffness) {
       one_heave(std::make_shared<aero::ConstantZasso>(aero::Derivatives18{}), {{7.0, 3.0, VectorXd::Constant(1, 2.0)}});
   SpectralOptions options;
   options.derivative = 0;
-  const MatrixXd found = response_spectra(system, kSpectralSpeed, Eigen::RowVector2d(1.0, 0.0), along, vertical,
+  const MatrixXd found = response_spectra(system, kSpectralSpeed, Eigen::RowVector2d(1.0, 0.0), {along, vertical},
                                           MatrixXd::Ones(1, 1), kThreeFrequencies, options);
   for (Index k = 0; k < 3; ++k) {
     const double f = kThreeFrequencies[k];
