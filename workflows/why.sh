@@ -17,6 +17,7 @@ if ! said=$(make -f "$makefile" --no-print-directory -n --debug=b "$token" STUDY
   exit 2
 fi
 reasons=$(printf '%s\n' "$said" | sed -n -e "s/^ *Prerequisite '\(.*\)' is newer than target '\(.*\)'\./\2: older than \1/p" \
+  -e "s/^ *Prerequisite '\(.*\) has changed' of target '\(.*\)' does not exist\./\2: \1 has changed/p" \
   -e "/^ *Prerequisite '.*manifest.json' of target/d" -e "s/^ *Prerequisite '\(.*\)' of target '\(.*\)' does not exist\./\2: \1 is not there/p" \
   -e "s/^ *File '\(.*manifest.json\)' does not exist\./\1: not there yet/p" | awk '!said[$0]++' |
   while read -r line; do

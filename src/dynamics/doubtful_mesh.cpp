@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <map>
 #include <numeric>
@@ -126,10 +127,31 @@ std::vector<std::string> doubled_elements(const fe::Model& model) {
   return pairs;
 }
 
+/// Shells are thin here: the transverse shear that they leave out lowers the first frequency of a square plate on supports by
+/// 0.9 % at a width of twenty thicknesses, and by 3.5 % at ten.
+std::string thick_shells(const fe::Model& model) {
+  constexpr double thick = 15.0;  ///< [-] width of all shells over their thickness
+  Eigen::AlignedBox3d box;
+  const fe::Element* thickest = nullptr;
+  const auto thickness = [&](const fe::Element& e) { return model.sections[fe::slot(e.section)].thickness_m; };
+  for (const fe::Element& element : model.elements) {
+    if (element.type != fe::ElementType::shell || element.section < 0) continue;
+    for (const int node : element.nodes) box.extend(model.nodes[fe::slot(node)].x_m);
+    if (thickest == nullptr || thickness(element) > thickness(*thickest)) thickest = &element;
+  }
+  if (thickest == nullptr || !(box.sizes().maxCoeff() < thick * thickness(*thickest))) return "";
+  return fmt::format(
+      "shells of group '{}' are {:.3g} m thick and all shells together {:.4g} m wide: shells are thin plates here, and the "
+      "shear "
+      "that they leave out lowers frequencies by more than 1 %; model a plate as thick as that by solids",
+      thickest->group, thickness(*thickest), box.sizes().maxCoeff());
+}
+
 }  // namespace
 
 std::vector<std::string> doubtful_mesh(const fe::Model& model) {
   std::vector<std::string> lines;
+  if (std::string thick = thick_shells(model); !thick.empty()) lines.push_back(std::move(thick));
   if (const auto pairs = loose_pairs(model); !pairs.empty()) {
     lines.push_back(fmt::format(
         "nodes {} lie at one place and nothing joins them: the structure is cut there; give their elements one node, or a link",

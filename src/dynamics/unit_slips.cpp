@@ -367,25 +367,31 @@ void warn_of_unit_slips(Reporter& reporter, const LoadedModel& loaded, const Eig
 }
 
 void refuse_one_factor(const LoadedModel& loaded, const Eigen::VectorXd& computed_Hz,
-                       const std::vector<MeasuredFrequencies>& measured) {
+                       const std::vector<MeasuredFrequencies>& measured, FactorWithinBounds within_bounds) {
   for (const MeasuredFrequencies& condition : measured) {
     const std::optional<double> ratio = one_factor(condition, computed_Hz);
-    if (!ratio || parameters_reach(loaded.system.parameters, *ratio * *ratio)) continue;
+    const bool reached = ratio && parameters_reach(loaded.system.parameters, *ratio * *ratio);
+    if (!ratio || (reached && within_bounds == FactorWithinBounds::passes)) continue;
     throw InputError(
         {loaded.source, 0, ""},
         fmt::format("all {} measured frequencies are {:.3g} times the computed ones in the order of both ({:.3g} to {:.3g} Hz "
-                    "against {:.3g} Hz and on), a factor of {:.3g} in stiffness over mass that no parameter's bounds reach: {}",
+                    "against {:.3g} Hz and on), a factor of {:.3g} in stiffness over mass{}: {}",
                     condition.frequency_Hz.size(), *ratio, condition.frequency_Hz.minCoeff(), condition.frequency_Hz.maxCoeff(),
                     computed_Hz[first_elastic(computed_Hz)], *ratio * *ratio,
+                    reached ? "" : " that no parameter's bounds reach",
                     slip_of_factor(1.0 / *ratio).value_or("look for a unit")),
-        "give masses in kg, densities in kg/m3, stiffness in N/m and moduli in Pa, or let the bounds of a parameter reach it");
+        within_bounds == FactorWithinBounds::passes
+            ? "give masses in kg, densities in kg/m3, stiffness in N/m and moduli in Pa, or let the bounds of a parameter "
+              "reach it"
+            : "give masses in kg, densities in kg/m3, stiffness in N/m and moduli in Pa; a parameter that is meant to be "
+              "so far off gets that value in the model and as its `initial`");
   }
 }
 
 void judge_units(Reporter& reporter, const LoadedModel& loaded, const Eigen::VectorXd& computed_Hz,
-                 const std::vector<MeasuredFrequencies>& measured) {
+                 const std::vector<MeasuredFrequencies>& measured, FactorWithinBounds within_bounds) {
   warn_of_unit_slips(reporter, loaded, computed_Hz, measured);
-  refuse_one_factor(loaded, computed_Hz, measured);
+  refuse_one_factor(loaded, computed_Hz, measured, within_bounds);
 }
 
 }  // namespace twindeck::dynamics

@@ -50,14 +50,18 @@ struct MeasuredFrequencies {
 void warn_of_unit_slips(Reporter& reporter, const LoadedModel& loaded, const Eigen::VectorXd& computed_Hz,
                         const std::vector<MeasuredFrequencies>& measured);
 
-/// Refuses a measurement that one factor of a known slip explains, before anything is updated or named. It is let pass if a
-/// parameter's bounds reach that factor.
+/// Whether a parameter whose bounds reach the factor of a known slip may explain it: an update may be meant to find it, but a
+/// diagnosis would name a material for a unit.
+enum class FactorWithinBounds { passes, is_refused };
+
+/// Refuses a measurement that one factor of a known slip explains, before anything is updated or named.
 /// @throws InputError  that names the condition's frequencies, the factor and the likely slip
 void refuse_one_factor(const LoadedModel& loaded, const Eigen::VectorXd& computed_Hz,
-                       const std::vector<MeasuredFrequencies>& measured);
+                       const std::vector<MeasuredFrequencies>& measured, FactorWithinBounds within_bounds);
 
 /// Both: what a step does that goes on to change or to name something.
 void judge_units(Reporter& reporter, const LoadedModel& loaded, const Eigen::VectorXd& computed_Hz,
-                 const std::vector<MeasuredFrequencies>& measured);
+                 const std::vector<MeasuredFrequencies>& measured,
+                 FactorWithinBounds within_bounds = FactorWithinBounds::passes);
 
 }  // namespace twindeck::dynamics

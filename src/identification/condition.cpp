@@ -12,6 +12,7 @@
 #include "identification/limits.hpp"
 #include "identification/mode_choices.hpp"
 #include "identification/one_mode.hpp"
+#include "identification/sampling.hpp"
 #include "sysid/common_motion.hpp"
 #include "sysid/merge_preger.hpp"
 
@@ -163,16 +164,33 @@ void check_merging(ConditionResult& result, const std::vector<Index>& references
   sort_by_frequency(result);
 }
 
+/// The highest peak of the spectrum of a record as it is that lies above the usual band; 0 for none.
+double peak_above_band(const SetupResult& setup) {
+  if (setup.conditioned.filtered || setup.singular.frequency_Hz.size() == 0) return 0.0;
+  const double nyquist = 0.5 * setup.conditioned.rate_Hz;
+  const std::vector<double> peaks = spectral_peaks(setup.singular.frequency_Hz, setup.singular.values.col(0), kClearPeak,
+                                                   kFilteredBand * nyquist, kUnfilteredBand * nyquist);
+  return peaks.empty() ? 0.0 : peaks.back();
+}
+
 /// Where the configuration leaves the band open, it ends where the sensors no longer move together. @return says so
 std::string limit_band(SetupResult& setup) {
   constexpr double kBeyond = 1.1;  // of the last common motion: the flank of a mode there
-  const double nyquist = 0.5 * setup.conditioned.rate_Hz, widest = 0.8 * nyquist;
+  const double nyquist = 0.5 * setup.conditioned.rate_Hz, peak = peak_above_band(setup);
+  const double widest = (peak > 0.0 ? 1.0 : kFilteredBand) * nyquist;
   const double common = sysid::highest_common_Hz(setup.conditioned.records, setup.conditioned.rate_Hz);
   const bool limited = kBeyond * common > setup.limits.lowest_Hz && kBeyond * common < widest;
   setup.limits.highest_Hz = limited ? kBeyond * common : widest;
+  const std::string why =
+      limited ? "above which the sensors show no common motion"
+      : peak > 0.0
+          ? fmt::format(
+                "the Nyquist frequency, because the spectrum has a peak at {:.4g} Hz above 0.8 of it; a mode there may "
+                "be the alias of one above the Nyquist frequency, which a faster record tells",
+                peak)
+          : "0.8 of the Nyquist frequency";
   return fmt::format("setup {}: modes are looked for up to {:.4g} Hz, {}; band.highest sets another limit",
-                     setup.conditioned.setup, setup.limits.highest_Hz,
-                     limited ? "above which the sensors show no common motion" : "0.8 of the Nyquist frequency");
+                     setup.conditioned.setup, setup.limits.highest_Hz, why);
 }
 
 /// The records of one setup with the limits that they carry.

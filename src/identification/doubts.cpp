@@ -18,10 +18,8 @@ constexpr double kPeriodsOfABlock = 2.0;  ///< [-] a shorter block bends frequen
 /// [-] factor between a damping ratio and the median of all modes that needs a look, and standard deviations beyond it.
 constexpr double kFarDamping = 4.0, kSure = 3.0;
 constexpr std::size_t kFewestModes = 4;  ///< [-] fewer have no usual damping
-/// [-] of the first singular value over its neighbourhood; ten segments reach half of it by chance.
-constexpr double kPeak = 10.0;
-constexpr double kNearPeak = 0.03;     ///< [-] of the frequency
-constexpr std::size_t kMostPeaks = 3;  ///< named
+constexpr double kNearPeak = 0.03;       ///< [-] of the frequency
+constexpr std::size_t kMostPeaks = 3;    ///< named
 
 void short_blocks(const ConditionResult& result, std::vector<std::string>& doubts) {
   for (const SetupResult& setup : result.setups) {
@@ -68,8 +66,8 @@ void peaks_without_mode(const ConditionResult& result, std::vector<std::string>&
     if (setup.singular.frequency_Hz.size() < 2) continue;
     const double highest = setup.limits.highest_Hz > 0.0 ? setup.limits.highest_Hz : 0.4 * setup.conditioned.rate_Hz;
     std::vector<std::string> left;
-    for (const double f :
-         spectral_peaks(setup.singular.frequency_Hz, setup.singular.values.col(0), kPeak, setup.limits.lowest_Hz, highest)) {
+    for (const double f : spectral_peaks(setup.singular.frequency_Hz, setup.singular.values.col(0), kClearPeak,
+                                         setup.limits.lowest_Hz, highest)) {
       if (!is_explained(setup, f)) left.push_back(fmt::format("{:.4g}", f));
     }
     if (left.empty()) continue;

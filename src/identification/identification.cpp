@@ -49,6 +49,14 @@ std::vector<Index> used_columns(const records::Campaign& campaign, const records
                      "give one at least the role response");
   }
   if (columns.empty()) throw InputError({"", 0, "exclude"}, "leaves no response channel", "leave out fewer");
+  constexpr std::size_t most = 500;  // whose cross spectra take 4 GB; of 5,000 they would take 400 GB
+  if (columns.size() > most) {
+    throw InputError(
+        {(campaign.folder / "campaign.toml").string(), record.line_of("channels"), "channels"},
+        fmt::format("{} response channels are to be identified together, expected at most {}", columns.size(), most),
+        "divide them over several [[record]] tables of the same file with a setup each, which share some references, "
+        "or leave channels out by the key `exclude`");
+  }
   return columns;
 }
 
@@ -234,6 +242,7 @@ Conditioned without_records(const Conditioned& conditioned) {
   rest.inputs = conditioned.inputs;
   rest.references = conditioned.references;
   rest.rate_Hz = conditioned.rate_Hz;
+  rest.filtered = conditioned.filtered;
   rest.block_rows = conditioned.block_rows;
   rest.setup = conditioned.setup;
   rest.condition = conditioned.condition;

@@ -24,6 +24,7 @@ struct Conditioned {
   std::vector<Samples> records;                    ///< detrended, decimated, SI units
   std::vector<Samples> excitation;                 ///< of the inputs, one a record
   double rate_Hz = 0.0;                            ///< after decimation
+  bool filtered = false;                           ///< decimation took out what lies above 0.8 of the Nyquist frequency
   long block_rows = 0;  ///< that the records are identified with: as configured, or chosen (sampling.hpp)
   std::string setup, condition;
   std::vector<std::string> files;       ///< one a record, relative to the campaign's folder

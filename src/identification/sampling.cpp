@@ -96,7 +96,9 @@ Sampling choose(const Spectrum& spectrum, const Kind& kind, const std::vector<Sa
                 const IdentificationSettings& config) {
   Sampling chosen;
   const double nyquist = 0.5 * rate_Hz / static_cast<double>(std::max(config.decimation, 1L));
-  const double highest = config.highest_Hz > 0.0 ? config.highest_Hz : 0.8 * nyquist;
+  const bool as_recorded = config.decimation <= 1 && !kind.by_reach;
+  const double highest =
+      config.highest_Hz > 0.0 ? config.highest_Hz : (as_recorded ? kUnfilteredBand : kFilteredBand) * nyquist;
   const std::vector<double> peaks =
       spectral_peaks(spectrum.frequency_Hz, spectrum.density, kind.prominence, config.lowest_Hz, highest);
   if (config.decimation > 0) chosen.decimation = config.decimation;
@@ -159,6 +161,7 @@ Sampling choose_decay_sampling(const std::vector<Samples>& records, double rate_
 
 void settle_sampling(Conditioned& conditioned, const IdentificationSettings& config, bool is_decay) {
   conditioned.block_rows = config.block_rows;
+  conditioned.filtered = config.decimation > 1;
   if (config.decimation > 0 && config.block_rows > 0) return;
   const Sampling chosen = is_decay ? choose_decay_sampling(conditioned.records, conditioned.rate_Hz, config)
                                    : choose_sampling(conditioned.records, conditioned.rate_Hz, config);
@@ -169,6 +172,7 @@ void settle_sampling(Conditioned& conditioned, const IdentificationSettings& con
     for (Samples& record : *all) record = signal::detrended(signal::decimated(record, chosen.decimation));
   }
   conditioned.rate_Hz /= static_cast<double>(chosen.decimation);
+  conditioned.filtered = true;
 }
 
 }  // namespace twindeck::identification

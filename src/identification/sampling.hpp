@@ -6,12 +6,19 @@
 
 namespace twindeck::identification {
 
+/// [-] of the Nyquist frequency: where the passband of decimation's filter ends, and how far peaks are looked for in a record
+/// as it is, whose last lines next to the Nyquist frequency hold the aliases of what lies right above it.
+inline constexpr double kFilteredBand = 0.8, kUnfilteredBand = 0.97;
+
 /// How finely a record is sampled and how long its blocks are, chosen from what moves in it.
 struct Sampling {
   long decimation = 1, block_rows = 30;
   double lowest_Hz = 0.0, highest_Hz = 0.0;  ///< peaks of the spectrum that the choice rests on; 0: none was found
   std::string note;                          ///< what was chosen and why
 };
+
+/// [-] of the first singular value over its neighbourhood; ten segments reach half of it by chance.
+inline constexpr double kClearPeak = 10.0;
 
 /// Frequencies of the lines that stand above the median of those within a quarter of their frequency to either side, from the
 /// ninth line on: below, nobody tells a peak from drift.

@@ -28,7 +28,7 @@ char order_without_mark(std::string_view text) {
 
 }  // namespace
 
-TextLines::TextLines(const std::filesystem::path& file, std::uintmax_t most) : in_(file, std::ios::binary) {
+void refuse_longer(const std::filesystem::path& file, std::uintmax_t most) {
   std::error_code unknown;
   if (const std::uintmax_t bytes = std::filesystem::file_size(file, unknown); !unknown && bytes > most) {
     throw InputError({file.string(), 0, ""},
@@ -36,6 +36,10 @@ TextLines::TextLines(const std::filesystem::path& file, std::uintmax_t most) : i
                                  1e-9 * static_cast<double>(most)),
                      "give a shorter file");
   }
+}
+
+TextLines::TextLines(const std::filesystem::path& file, std::uintmax_t most) : in_(file, std::ios::binary) {
+  refuse_longer(file, most);
   if (is_spreadsheet(file) && in_.is_open()) {
     const std::filesystem::path csv = csv_of_spreadsheet(file);
     in_.close();

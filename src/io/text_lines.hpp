@@ -11,6 +11,9 @@ namespace twindeck::io {
 /// [bytes] Longest table, configuration or deck that is read whole: a deck of twenty million lines. More is a mistake.
 constexpr std::uintmax_t longest_text = 2'000'000'000;
 
+/// @throws InputError  for a regular file longer than `most` bytes; none of it is read
+void refuse_longer(const std::filesystem::path& file, std::uintmax_t most);
+
 /// The lines of a text file as programs write it: UTF-8 with or without its mark, latin-1 (its bytes are left), UTF-16 in
 /// either order of bytes (as UTF-8); lines end in LF, CR LF, or CR alone.
 class TextLines {

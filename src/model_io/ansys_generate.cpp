@@ -42,7 +42,7 @@ void fill_nodes(Parts& parts, const Command& command) {
   // FILL,node1,node2,number,first,step,times,increment,ratio
   require_global_axes(parts, command);
   refuse_ratio(command, 7);
-  const long from = command.integer(0), to = command.integer(1);
+  const long from = command.integer_or(0, parts.last_nodes[0]), to = command.integer_or(1, parts.last_nodes[1]);
   const long count = command.integer_or(2, std::abs(to - from) - 1);
   if (count < 0 || count > most_copies)
     command.fail(fmt::format("fills in {} nodes", count), "give two nodes with a gap between, and how many fill it");

@@ -5,7 +5,7 @@
 /// Inside of the library: nodes and elements by repetition (FILL, NGEN, EGEN), and the further nodes of an element (EMORE).
 namespace twindeck::model_io::ansys {
 
-/// FILL: nodes on the straight line between two, evenly spaced.
+/// FILL: nodes on the straight line between two, by themselves the last two of N, evenly spaced.
 void fill_nodes(Parts& parts, const Command& command);
 /// NGEN: copies of nodes, moved and with increased numbers.
 void generate_nodes(Parts& parts, const Command& command);

@@ -52,6 +52,7 @@ void read_node(Parts& parts, const Command& command) {
   for (std::size_t i = 0; i < 3; ++i) node.x_m[static_cast<int>(i)] = command.number_or(i + 1, 0.0);
   for (std::size_t i = 4; i < 7; ++i) node.rotated = node.rotated || command.number_or(i, 0.0) != 0.0;
   add_node(parts, id, node);
+  parts.last_nodes = {parts.last_nodes[1], id};
 }
 
 void read_element(Parts& parts, const Command& command) {

@@ -139,6 +139,7 @@ struct Parts : DeckModel {
   Deck deck;
   std::map<std::string, long> told;  ///< first line of each ignored command that is worth a note, by its name
   std::map<long, Node> nodes;
+  std::array<long, 2> last_nodes{};  ///< the last two that N gave; 0: none
   std::map<long, Element> elements;
   std::map<long, TypeDefinition> types;
   std::map<long, SectionDefinition> sections;

@@ -172,6 +172,11 @@ ImportedModel read_inp(const std::filesystem::path& path) {
   }
   note_loads(parts, plan, stage);
   parts.drop_unused_nodes();
+  for (const auto& [id, body] : parts.turned_by) {
+    if (parts.node_position.contains(id))
+      body.second->fail(fmt::format("ROT NODE {} carries an element, spring or mass too, which is not read", id),
+                        "give it to the REF NODE, whose rotations are degrees of freedom 4 to 6");
+  }
   read_inp_stage(parts, stage);
   name_points(parts);
   return parts.finished({path}, "*ELEMENT cards with their sections");

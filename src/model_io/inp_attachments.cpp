@@ -167,8 +167,12 @@ void attach_inp_boundary(InpParts& parts, const InpCard& card) {
     const bool whole = fixed[0] == fixed[1] && fixed[0] == fixed[2] && fixed[3] == fixed[4] && fixed[3] == fixed[5];
     if (!whole) parts.refuse_turned(line);
     const bool set = !parts.is_number(line.fields[0]);
-    for (const long id : parts.nodes_of(line, 0))
-      parts.hold(set ? line.fields[0] : fmt::format("node_{}", id), parts.node(line, id), fixed);
+    for (const long id : parts.nodes_of(line, 0)) {
+      const auto [node, first] = parts.moved_by(id);
+      Directions of_node{};
+      for (std::size_t d = 0; d < (first == 0 ? 6U : 3U); ++d) of_node[fe::slot(first) + d] = fixed[d];
+      parts.hold(set ? line.fields[0] : fmt::format("node_{}", id), parts.node(line, node), of_node);
+    }
   }
 }
 

@@ -18,7 +18,12 @@ std::vector<std::string> split_line(const std::string& text) {
   return fields;
 }
 
-constexpr std::size_t longest_keyword = 32;  ///< letters: messages say no more of what need not be a deck
+/// What messages call a card: its letters and blanks. The rest of what need not be a deck is not shown.
+std::string label_of(const std::string& keyword) {
+  constexpr std::size_t longest = 32;  // letters: the longest name of a card has 27
+  const std::size_t end = keyword.find_first_not_of("ABCDEFGHIJKLMNOPQRSTUVWXYZ- ");
+  return "*" + trimmed(keyword.substr(0, std::min(end, longest)));
+}
 
 InpCard to_card(const std::string& text, const std::filesystem::path& file, long line) {
   InpCard card;
@@ -27,7 +32,7 @@ InpCard to_card(const std::string& text, const std::filesystem::path& file, long
   for (const char c : upper_case(fields.front())) {
     if (c != ' ' || (!card.keyword.empty() && card.keyword.back() != ' ')) card.keyword += c;
   }
-  static_cast<DeckPlace&>(card) = {&file, line, "*" + card.keyword.substr(0, longest_keyword)};
+  static_cast<DeckPlace&>(card) = {&file, line, label_of(card.keyword)};
   for (std::size_t i = 1; i < fields.size(); ++i) {
     const auto equals = fields[i].find('=');
     std::string value = equals == std::string::npos ? "" : trimmed(fields[i].substr(equals + 1));

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <map>
+#include <set>
 
 namespace twindeck::model_io {
 namespace {
@@ -112,12 +113,24 @@ void attach_inp_equations(InpParts& parts) {
 }
 
 void attach_inp_rigid_body(InpParts& parts, const InpCard& card) {
-  card.allow({"REF NODE", "NSET", "TIE NSET"});
-  const std::string slaves = card.has("TIE NSET") ? card.get("TIE NSET") : card.required("NSET");
+  card.allow({"REF NODE", "ROT NODE", "NSET", "TIE NSET", "ELSET"});
+  const std::string slaves = card.has("TIE NSET") ? card.get("TIE NSET") : card.has("ELSET") ? "" : card.required("NSET");
   const int master = parts.reference_node(card);
-  for (const long id : parts.set(parts.node_sets, card, slaves).members) {
+  std::set<long> body;
+  if (slaves.empty())
+    for (const long id : parts.set(parts.element_sets, card, card.get("ELSET")).members)
+      if (const auto element = parts.elements.find(id); element != parts.elements.end())
+        body.insert(element->second.nodes.begin(), element->second.nodes.end());
+  if (!slaves.empty()) {
+    const auto& members = parts.set(parts.node_sets, card, slaves).members;
+    body.insert(members.begin(), members.end());
+  }
+  for (const long id : body) {
     if (const int slave = parts.node(card, id); slave != master) parts.add_link(master, slave);
   }
+  if (!card.has("ROT NODE")) return;
+  parts.refuse_turned(card);
+  parts.turned_by[parts.named_node(card, "ROT NODE")] = {parts.model.nodes[fe::slot(master)].id, &card};
 }
 
 void attach_inp_mpc(InpParts& parts, const InpCard& card) {

@@ -230,11 +230,12 @@ std::vector<long> InpParts::nodes_of(const InpLine& line, std::size_t field) con
   return set(node_sets, line, line.fields[field]).members;
 }
 
-int InpParts::reference_node(const InpCard& card) const {
-  (void)card.required("REF NODE");
-  const std::vector<long> nodes = nodes_of(card.value("REF NODE"), 0);
-  if (nodes.size() != 1) card.fail("REF NODE names more than one node", "give one");
-  return node(card, nodes.front());
+long InpParts::named_node(const InpCard& card, const std::string& parameter) const {
+  (void)card.required(parameter);
+  const std::vector<long> nodes = nodes_of(card.value(parameter), 0);
+  if (nodes.size() != 1) card.fail(parameter + " names more than one node", "give one");
+  (void)node(card, nodes.front());
+  return nodes.front();
 }
 
 void InpParts::refuse_turned(const DeckPlace& at) const {

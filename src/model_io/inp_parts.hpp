@@ -66,6 +66,8 @@ struct InpParts : DeckModel {
   std::vector<DeckEquation> equations;                 ///< the first term is the dependent one
   std::map<int, const InpCard*> uneven_expansion;      ///< of materials where it is not one number
   std::set<const InpCard*> of_stage;                   ///< cards of the static stage, which may move supports
+  /// Of a *RIGID BODY with ROT NODE: by that node, whose displacements are the body's rotations, the reference node.
+  std::map<long, std::pair<long, const InpCard*>> turned_by;
 
   /// Position of a node. @throws InputError if no *NODE defines it
   [[nodiscard]] int node(const DeckPlace& at, long id) const;
@@ -92,8 +94,15 @@ struct InpParts : DeckModel {
   [[nodiscard]] const InpSurface& surface(const DeckPlace& at, const std::string& name) const;
   /// A field that holds the number of a node or the name of a set of nodes.
   [[nodiscard]] std::vector<long> nodes_of(const InpLine& line, std::size_t field) const;
-  /// Position of the one node that REF NODE= names. @throws InputError if it names none or several
-  [[nodiscard]] int reference_node(const InpCard& card) const;
+  /// Number of the one node that REF NODE= or another parameter names. @throws InputError if it names none or several
+  [[nodiscard]] long named_node(const InpCard& card, const std::string& parameter) const;
+  /// Position of REF NODE.
+  [[nodiscard]] int reference_node(const InpCard& card) const { return node(card, named_node(card, "REF NODE")); }
+  /// Node and first degree of freedom that the displacements of a node are: its own, or a body's rotations (ROT NODE).
+  [[nodiscard]] std::pair<long, int> moved_by(long id) const {
+    const auto found = turned_by.find(id);
+    return found == turned_by.end() ? std::pair(id, 0) : std::pair(found->second.first, 3);
+  }
   /// Elements are grouped by the set that their *ELEMENT card names, else by that of the section, spring or mass `card`: many
   /// section cards (one a direction n1) may speak of one group. Where several instances have a set of the name, each has a
   /// group, "INSTANCE.NAME".

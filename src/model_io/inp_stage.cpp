@@ -108,7 +108,10 @@ class InpStageReader {
     parts_.refuse_turned(line);
     const int dof = line.component(1);
     const double size = line.number_or(2, 0.0);
-    for (const long id : parts_.nodes_of(line, 0)) stage_.load(stage_.node(line, id), dof, size);
+    for (const long id : parts_.nodes_of(line, 0)) {
+      const auto [node, first] = parts_.moved_by(id);
+      stage_.load(stage_.node(line, node), first + dof, size);
+    }
   }
 
   void read_movement(const InpLine& line) {
@@ -116,8 +119,10 @@ class InpStageReader {
     const double size = line.number_or(3, 0.0);
     const int first = line.component(1), last = line.blank(2) ? first : line.component(2);
     if (size != 0.0) parts_.refuse_turned(line);
-    for (const long id : parts_.nodes_of(line, 0))
-      for (int dof = first; dof <= last; ++dof) stage_.move(line, stage_.node(line, id), dof, size);
+    for (const long id : parts_.nodes_of(line, 0)) {
+      const auto [node, from] = parts_.moved_by(id);
+      for (int dof = first; dof <= last; ++dof) stage_.move(line, stage_.node(line, node), from + dof, size);
+    }
   }
 
   void read_temperature(const InpLine& line, std::map<long, double>& of) {

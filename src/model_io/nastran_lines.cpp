@@ -86,7 +86,7 @@ struct DeckReader {
 
   [[noreturn]] static void fail(const RawLine& at, const std::string& key, const std::string& problem,
                                 const std::string& mend) {
-    DeckPlace{at.file, at.line, key}.fail(problem, mend);
+    DeckPlace{at.file, at.line, short_name(key)}.fail(problem, mend);
   }
 
   /// The text of a file into `lines`, INCLUDE lines replaced by the lines of their files.
@@ -224,8 +224,7 @@ struct DeckReader {
       if (raw.text.find(',') == std::string::npos)
         split_fixed(raw.text, line);
       else if (!split_free(trimmed(raw.text), line))
-        fail(raw, short_name(line.first), "has more than ten fields on one line",
-             "let the card go on in a line that begins with a comma");
+        fail(raw, line.first, "has more than ten fields on one line", "let the card go on in a line that begins with a comma");
       if (line.first.starts_with('='))
         fail(raw, line.first, "repeats the card above, which is not read", "write every card out");
       const bool continues = line.first.empty() || line.first.starts_with('+') || line.first.starts_with('*');
@@ -251,7 +250,7 @@ struct DeckReader {
       fail(raw, line.first, "continues a card, but none stands above it", "begin with the name of a card");
     Card& card = deck.cards_.back();
     const std::string name = continuation_name(line.first);
-    if (!name.empty() && !announced.empty() && name != announced) card.stray = line.first;
+    if (!name.empty() && !announced.empty() && name != announced) card.stray = short_name(line.first);
     const std::size_t whole = line.data.size();  // a large line may begin in the middle of eight fields, a small one may not
     while (card.fields.size() % whole != 0) card.fields.emplace_back();
     card.fields.insert(card.fields.end(), line.data.begin(), line.data.end());

@@ -135,6 +135,23 @@ std::string what_else(hid_t dataset) {
   return (kind == H5T_FLOAT || kind == H5T_INTEGER) && rank > 2 ? fmt::format("has {} dimensions", rank) : "";
 }
 
+/// Sets by what `access` a dataset is opened with room for the chunks that one block of samples lies in, so that each chunk is
+/// decompressed once. The dataset is closed again: one that stays open keeps the room it has.
+/// @param along_rows  samples follow each other along a row
+void make_room(hid_t file, const NamedArray& array, bool along_rows, hid_t access) {
+  const Handle dataset(H5Dopen(file, array.name.c_str(), H5P_DEFAULT), H5Dclose);
+  const Handle settings(H5Dget_create_plist(dataset.get()), H5Pclose), type(H5Dget_type(dataset.get()), H5Tclose);
+  hsize_t chunk[2] = {1, 1};
+  if (H5Pget_layout(settings.get()) != H5D_CHUNKED || H5Pget_chunk(settings.get(), 2, chunk) <= 0) return;
+  constexpr hsize_t least = hsize_t{1} << 20U, most = hsize_t{1} << 30U;  // bytes
+  constexpr hsize_t slots_of_a_chunk = 100, fewest_slots = 521;           // as the library advises, and takes by itself
+  const hsize_t bytes = chunk[0] * chunk[1] * H5Tget_size(type.get());    // decompressing one takes as much memory anyway
+  const auto across =
+      1 + (along_rows ? static_cast<hsize_t>(array.rows) / chunk[0] : static_cast<hsize_t>(array.columns) / chunk[1]);
+  H5Pset_chunk_cache(access, std::max(fewest_slots, slots_of_a_chunk * std::min(across, least) + 1),
+                     std::max({least, bytes, std::min(most, bytes * across)}), 1.0);
+}
+
 /// Values of a part, in C order.
 Eigen::MatrixXd part(hid_t dataset, Index row, Index column, Index rows, Index columns, const std::string& file) {
   const Handle space(H5Dget_space(dataset), H5Sclose);
@@ -295,9 +312,11 @@ RecordInfo scan_hdf5(const fs::path& file, const Visitor& visit) {
   FirstColumn first_column(visit, matrix ? std::ssize(info.channels) : 1);
   const Index chunk = std::max<Index>(1, 131072 / (matrix ? std::ssize(info.channels) : 1));
   for (std::size_t k = 0; k < choice.data.size(); ++k) {
-    const Handle dataset(open(choice.data[k]), H5Dclose);
     const NamedArray& array = found.arrays[choice.data[k]];
     const bool along_rows = array.columns > array.rows;
+    const Handle access(H5Pcreate(H5P_DATASET_ACCESS), H5Pclose);
+    make_room(handle.get(), array, along_rows, access.get());
+    const Handle dataset(H5Dopen(handle.get(), array.name.c_str(), access.get()), H5Dclose);
     const Index first_channel = matrix ? 0 : static_cast<Index>(k);
     for (Index at = 0; at < samples; at += chunk) {
       const Index n = std::min(chunk, samples - at);

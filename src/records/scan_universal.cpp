@@ -8,13 +8,13 @@
 #include <cmath>
 #include <cstring>
 #include <limits>
-#include <numbers>
 
 #include "core/error.hpp"
 #include "records/take_clock.hpp"
 #include "records/text_cells.hpp"
 #include "records/universal_lines.hpp"
 #include "records/universal_names.hpp"
+#include "records/universal_shapes.hpp"
 
 namespace twindeck::records {
 namespace fs = std::filesystem;
@@ -27,8 +27,6 @@ const char* direction_name(long code) {
   static const char* const names[] = {"-rz", "-ry", "-rx", "-z", "-y", "-x", "", "+x", "+y", "+z", "+rx", "+ry", "+rz"};
   return code >= -6 && code <= 6 ? names[code + 6] : "";
 }
-
-constexpr const char* kCopyAgain = "the file was cut off; copy it again";
 
 void skip_set(UniversalLines& in, const std::string& set) {
   for (std::string line; in.next(line);) {
@@ -50,21 +48,6 @@ void expect_end(UniversalLines& in, RecordInfo& info, const std::string& set) {
   }
   if (!whole) in.fail(fmt::format("breaks off in the last value of set {}", set), kCopyAgain);
   info.notes.push_back(fmt::format("the last set ({}) has no end: if the file was cut off, channels are missing", set));
-}
-
-/// The next line of a set, which must not be its end.
-std::string need_inside(UniversalLines& in, const std::string& what) {
-  const std::string line = in.need(what);
-  if (is_delimiter(line)) in.fail(what + " ends too early", "write the set again");
-  return line;
-}
-
-/// A label or code: a whole number. @throws InputError  for any other
-long label_of(UniversalLines& in, double number) {
-  constexpr long most = 1L << 53U;  // whole numbers that a double tells apart
-  const auto size = count_in(std::abs(number), most);
-  if (!size) in.fail(fmt::format("holds {:.6g}, expected a whole number", number), "write the set again");
-  return number < 0.0 ? -*size : *size;
 }
 
 struct Series {
@@ -263,142 +246,11 @@ void read_series(UniversalLines& in, const std::string& set_line, const Visitor&
   expect_end(in, info, series.binary ? "58b" : "58");
 }
 
-void read_nodes(UniversalLines& in, bool double_precision, UniversalData& data) {
-  const std::string what = double_precision ? "set 2411" : "set 15";
-  for (std::string line; in.next(line);) {
-    if (is_delimiter(line)) return;
-    const auto numbers = numbers_in(line);
-    if (numbers.empty()) continue;
-    if (!double_precision) {
-      if (numbers.size() < 7) in.fail("holds fewer than a label, three codes and three coordinates", "write set 15 again");
-      data.nodes[label_of(in, numbers[0])] = Eigen::Vector3d(numbers[4], numbers[5], numbers[6]);
-      continue;
-    }
-    const long label = label_of(in, numbers[0]);
-    const auto coordinates = numbers_in(need_inside(in, what));
-    if (coordinates.size() < 3) in.fail("holds fewer than three coordinates", "write set 2411 again");
-    data.nodes[label] = Eigen::Vector3d(coordinates[0], coordinates[1], coordinates[2]);
-  }
-  in.fail("breaks off in " + what, kCopyAgain);
-}
-
-void read_lines(UniversalLines& in, UniversalData& data) {
-  const auto head = numbers_in(need_inside(in, "set 82"));
-  need_inside(in, "set 82");
-  const long count = head.size() > 1 ? count_in(head[1], in.size()).value_or(0) : 0;
-  std::vector<long> chain;
-  const auto finish = [&] {
-    if (chain.size() > 1) data.lines.push_back(chain);
-    chain.clear();
-  };
-  long seen = 0;
-  for (std::string line; in.next(line);) {
-    if (is_delimiter(line)) return finish();
-    for (const double number : numbers_in(line)) {
-      if (seen++ >= count && count > 0) break;
-      if (number == 0.0) {
-        finish();
-      } else {
-        chain.push_back(label_of(in, number));
-      }
-    }
-  }
-  in.fail("breaks off in set 82", kCopyAgain);
-}
-
-/// Appends the numbers of further lines of set 55 until there are `wanted`, or a line has none.
-void read_numbers(UniversalLines& in, std::size_t wanted, std::vector<double>& numbers) {
-  while (numbers.size() < wanted) {
-    const auto more = numbers_in(need_inside(in, "set 55"));
-    if (more.empty()) break;
-    numbers.insert(numbers.end(), more.begin(), more.end());
-  }
-}
-
-/// What set 55 says of its mode: the number, and frequency and damping of a real one or the eigenvalue of a complex one.
-void take_mode(const std::vector<double>& integers, const std::vector<double>& reals, long most_codes, NodalResult& result) {
-  if (integers.size() > 3) result.mode = static_cast<int>(count_in(integers[3], most_codes).value_or(0));
-  if (result.analysis == 3 && reals.size() >= 2) {
-    result.eigenvalue = {reals[0], reals[1]};
-    result.frequency_Hz = std::abs(result.eigenvalue) / (2.0 * std::numbers::pi);
-    if (std::abs(result.eigenvalue) > 0.0) result.damping_ratio = -reals[0] / std::abs(result.eigenvalue);
-  } else if (!reals.empty()) {
-    result.frequency_Hz = reals[0];
-    if (reals.size() >= 3) result.damping_ratio = reals[2];
-  }
-}
-
-/// The lines of set 55 before its nodes. @return values a node
-Index read_result_header(UniversalLines& in, NodalResult& result) {
-  result.title = field(need_inside(in, "set 55"), 0, 80);
-  for (int i = 1; i < 5; ++i) need_inside(in, "set 55");
-  const auto type = numbers_in(need_inside(in, "set 55"));
-  if (type.size() < 6) in.fail("holds fewer than six codes of the result's type", "write set 55 again");
-  constexpr long most_codes = 100000;  // values a node, integers and reals of a result; a sound file has some ten
-  result.analysis = static_cast<int>(count_in(type[1], most_codes).value_or(0));
-  result.complex = type[4] == 5.0 || type[4] == 6.0;
-  const auto per_node = static_cast<Index>(count_in(type[5], most_codes).value_or(0));
-  if (per_node == 0) in.fail(fmt::format("states {:.6g} values a node", type[5]), "write set 55 again");
-  // Two numbers tell how many integers and reals follow; lines of eight and six.
-  std::vector<double> integers = numbers_in(need_inside(in, "set 55")), reals;
-  const auto stated = [&](std::size_t k) {
-    return static_cast<std::size_t>(integers.size() > k ? count_in(integers[k], most_codes).value_or(0) : 0);
-  };
-  const std::size_t n_integers = stated(0), n_reals = stated(1);
-  read_numbers(in, 2 + n_integers, integers);
-  read_numbers(in, n_reals, reals);
-  take_mode(integers, reals, most_codes, result);
-  return per_node;
-}
-
-/// The values that follow the line of a node.
-Eigen::VectorXcd read_node_values(UniversalLines& in, long node, Index per_node, bool complex) {
-  const auto wanted = static_cast<std::size_t>(per_node * (complex ? 2 : 1));
-  std::vector<double> values;
-  read_numbers(in, wanted, values);
-  if (values.size() < wanted)
-    in.fail(fmt::format("has {} values at node {}, expected {}", values.size(), node, wanted), "write set 55 again");
-  Eigen::VectorXcd vector(per_node);
-  for (Index k = 0; k < per_node; ++k) {
-    const auto at = static_cast<std::size_t>(k);
-    vector[k] = complex ? std::complex<double>(values[2 * at], values[2 * at + 1]) : std::complex<double>(values[at]);
-  }
-  return vector;
-}
-
-void read_result(UniversalLines& in, UniversalData& data) {
-  NodalResult result;
-  const Index per_node = read_result_header(in, result);
-  for (std::string line; in.next(line);) {
-    if (is_delimiter(line)) {
-      data.results.push_back(std::move(result));
-      return;
-    }
-    if (is_blank(line)) continue;
-    const long node = integer_or(field(line, 0, 10), 0);
-    result.values[node] = read_node_values(in, node, per_node, result.complex);
-  }
-  in.fail("breaks off in set 55", kCopyAgain);
-}
-
-void read_units(UniversalLines& in, UniversalData& data) {
-  need_inside(in, "set 164");
-  for (std::string line; in.next(line);) {
-    if (is_delimiter(line)) return;
-    const auto numbers = numbers_in(line);
-    if (!numbers.empty() && !data.has_units) {
-      data.has_units = true;
-      if (numbers[0] > 0.0 && std::isfinite(numbers[0])) data.length_factor = numbers[0];
-    }
-  }
-  in.fail("breaks off in set 164, expected -1 at its end", kCopyAgain);
-}
-
 long set_number(const std::string& line) { return integer_or(field(line, 0, 6), integer_or(field(line, 0, 80), 0)); }
 
 /// A line with the number of a set that is read, and nothing else but the fields of 58b.
 bool begins_known_set(const std::string& line) {
-  constexpr std::array<long, 7> known = {15, 55, 58, 82, 151, 164, 2411};
+  constexpr std::array<long, 8> known = {15, 55, 58, 82, 151, 164, 2411, 2412};
   if (std::find(known.begin(), known.end(), set_number(line)) == known.end()) return false;
   return field(line, 0, 80).find_first_not_of("0123456789") == std::string::npos || field(line, 0, 80).starts_with("58b");
 }
@@ -410,19 +262,11 @@ void read_set(UniversalLines& in, const std::string& set_line, const Visitor& vi
     in.fail(fmt::format("holds '{}' after -1, expected the number of a set", field(set_line, 0, 40)), "write the file again");
   } else if (set == 58) {
     read_series(in, set_line, visit, info, other_series);
-  } else if (set == 15 || set == 2411) {
-    read_nodes(in, set == 2411, data);
-  } else if (set == 82) {
-    read_lines(in, data);
-  } else if (set == 55) {
-    read_result(in, data);
   } else if (set == 151) {
     data.title = field(need_inside(in, "set 151"), 0, 80);
     data.has_header = true;
     skip_set(in, "151");
-  } else if (set == 164) {
-    read_units(in, data);
-  } else {
+  } else if (!read_shape_set(in, set, data)) {
     ++data.others[std::to_string(set)];
     skip_set(in, std::to_string(set));
   }

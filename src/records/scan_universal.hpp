@@ -7,9 +7,9 @@
 
 namespace twindeck::records {
 
-/// Reads a universal file: sets 15, 55, 58, 58b, 82, 151, 164, 2411. Accepts what programs get wrong: a newline too many before
-/// or after binary data, a byte count that is not that of the values, Fortran's D exponents, numbers that touch, sets 151 and
-/// 164 left out, lines cut short. @param visit  gets the samples of sets 58 of time, a channel a set
+/// Reads a universal file: sets 15, 55, 58, 58b, 82, 151, 164, 2411, 2412. Accepts what programs get wrong: a newline too many
+/// before or after binary data, a byte count that is not that of the values, Fortran's D exponents, numbers that touch, sets
+/// 151 and 164 left out, lines cut short. @param visit  gets the samples of sets 58 of time, a channel a set
 /// @throws InputError  with file and line for a file that breaks off or a field that is no number
 /// Reference: University of Cincinnati, Structural Dynamics Research Laboratory, "Universal File Datasets Summary".
 UniversalData scan_universal_sets(const std::filesystem::path& file, const Visitor& visit, RecordInfo& info);

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <array>
 #include <complex>
 #include <map>
 #include <string>
@@ -11,14 +12,25 @@ namespace twindeck::records {
 /// A mode shape or other result at nodes (set 55).
 struct NodalResult {
   std::string title;  ///< first line of text
-  int analysis = 2;   ///< 2 normal mode, 3 complex mode
+  int analysis = 2;   ///< 2 normal mode, 3 and 7 complex mode (of an equation of first and second order)
   int mode = 0;
   double frequency_Hz = 0.0;
-  std::complex<double> eigenvalue;  ///< analysis 3
+  std::complex<double> eigenvalue;  ///< [rad/s] of a complex mode
   double damping_ratio = 0.0;
   bool complex = false;
   std::map<long, Eigen::VectorXcd> values;  ///< by node, 3 or 6 components
+  [[nodiscard]] bool is_complex_mode() const { return analysis == 3 || analysis == 7; }
 };
+
+/// An element (set 2412).
+struct UniversalElement {
+  long label = 0;
+  long descriptor = 0;  ///< 11 rod, 21 beam, 91 and 94 shell of three and four nodes, 111 tetrahedron, 115 hexahedron
+  std::vector<long> nodes;
+};
+
+/// Whether elements of that kind have a line with the node of their orientation.
+[[nodiscard]] constexpr bool is_beam(long descriptor) { return descriptor == 11 || (descriptor >= 21 && descriptor <= 24); }
 
 /// What universal files hold beside time series.
 struct UniversalData {
@@ -26,6 +38,8 @@ struct UniversalData {
   bool has_header = false, has_units = false;  ///< sets 151, 164
   double length_factor = 1.0;                  ///< set 164: file lengths are metres times this
   std::map<long, Eigen::Vector3d> nodes;       ///< sets 15, 2411 [m]
+  std::map<long, std::array<long, 2>> axes;    ///< numbers of the axes that a node's place and its motion are given in
+  std::vector<UniversalElement> elements;      ///< set 2412
   std::vector<std::vector<long>> lines;        ///< set 82: chains of nodes
   std::vector<NodalResult> results;            ///< set 55
   std::map<std::string, int> others;           ///< sets that are not read, by number

@@ -1,5 +1,7 @@
 #include "records/universal_lines.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <charconv>
 #include <cmath>
@@ -67,6 +69,19 @@ std::string UniversalLines::peek(std::size_t offset, std::size_t n) {
 
 void UniversalLines::fail(const std::string& problem, const std::string& mend) const {
   throw InputError({file_.string(), number_, ""}, problem, mend);
+}
+
+std::string need_inside(UniversalLines& in, const std::string& what) {
+  const std::string line = in.need(what);
+  if (is_delimiter(line)) in.fail(what + " ends too early", "write the set again");
+  return line;
+}
+
+long label_of(UniversalLines& in, double number) {
+  constexpr long most = 1L << 53U;  // whole numbers that a double tells apart
+  const auto size = count_in(std::abs(number), most);
+  if (!size) in.fail(fmt::format("holds {:.6g}, expected a whole number", number), "write the set again");
+  return number < 0.0 ? -*size : *size;
 }
 
 bool is_delimiter(const std::string& line) {

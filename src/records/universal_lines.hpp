@@ -41,6 +41,13 @@ class UniversalLines {
   std::string back_;
 };
 
+/// What helps with a file that breaks off.
+inline constexpr const char* kCopyAgain = "the file was cut off; copy it again";
+
+/// The next line of a set. @throws InputError  if it is the set's end
+std::string need_inside(UniversalLines& in, const std::string& what);
+/// A label or code: a whole number. @throws InputError  for any other
+long label_of(UniversalLines& in, double number);
 /// True for the line -1 that begins and ends a set.
 [[nodiscard]] bool is_delimiter(const std::string& line);
 /// Nothing but blanks, or the letter by which DOS ended a file.

@@ -6,7 +6,7 @@
 
 namespace twindeck::records {
 
-/// Writes sets 151, 164 (SI), 2411, 82 and a set 55 a result, in text.
+/// Writes sets 151, 164 (SI), 2411, 2412, 82 and a set 55 a result, in text.
 void write_universal(const UniversalData& data, const std::filesystem::path& file);
 
 }  // namespace twindeck::records

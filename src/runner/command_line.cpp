@@ -57,6 +57,17 @@ void check_folder(const char* option, const std::optional<fs::path>& folder) {
   }
 }
 
+/// Step 3 takes a universal file with modes and makes the folder of it that the others take.
+void check_modes(const Step& step, const std::optional<fs::path>& modes) {
+  const bool is_file = modes && fs::is_regular_file(*modes);
+  if (is_file && step.token == "s3_identification") return;
+  if (is_file) {
+    throw InputError({"command line", 0, "--modes"}, "'" + modes->string() + "' is a file, expected a folder with modes.csv",
+                     "make one of a universal file: s3_identification --modes FILE --out DIR --set imported_std_pct=0.5");
+  }
+  check_folder("--modes", modes);
+}
+
 /// What the options are written into while the command line is parsed.
 struct Words {
   std::string study, out, results, model, campaign, modes, features, key;
@@ -80,7 +91,9 @@ void add_common_options(CLI::App& app, CommandLine& line, Words& words) {
   app.add_option("--model", words.model, "model folder, or .inp, Nastran, ANSYS or SAP2000 file, to use instead of the study's")
       ->type_name("DIR");
   app.add_option("--campaign", words.campaign, "campaign folder (raw records) to use instead of the study's")->type_name("DIR");
-  app.add_option("--modes", words.modes, "folder with measured modes.csv to use instead of the study's")->type_name("DIR");
+  app.add_option("--modes", words.modes,
+                 "folder with measured modes.csv to use instead of the study's; step 3: a universal file of modes")
+      ->type_name("DIR");
   app.add_option("--features", words.features, "features folder to use instead of the study's")->type_name("DIR");
   app.add_option("--set", line.sets, "change a key of the configuration; --describe tells which there are")
       ->type_name("KEY=VALUE");
@@ -195,7 +208,7 @@ CommandLine parse_command_line(int argc, char** argv, const Step& step) {
        !model_io::is_nastran_file(*line.model) && !model_io::is_ansys_deck(*line.model)))
     check_folder("--model", line.model);
   check_folder("--campaign", line.campaign);
-  check_folder("--modes", line.modes);
+  check_modes(step, line.modes);
   check_folder("--features", line.features);
   return line;
 }

@@ -8,6 +8,7 @@
 #include <chrono>
 #include <csignal>
 #include <cstdio>
+#include <limits>
 #include <new>
 #include <stdexcept>
 #include <string_view>
@@ -181,6 +182,25 @@ std::string located(const InputError& error, const Step& step, const StepContext
   return (source.empty() ? "command line" : source) + ": " + error.what();
 }
 
+/// The file itself, or all files of a folder in order.
+std::vector<fs::path> files_of(const fs::path& path) {
+  if (!fs::is_directory(path)) return {path};
+  std::vector<fs::path> files;
+  for (const auto& entry : fs::recursive_directory_iterator(path)) {
+    // A manifest tells seconds and dates of another step; what counts is the files that it vouches for.
+    if (entry.is_regular_file() && entry.path().filename() != "manifest.json") files.push_back(entry.path());
+  }
+  std::sort(files.begin(), files.end());
+  return files;
+}
+
+/// Tables and configurations are read whole, and decks, which are no part of a folder; matrices are read entry by entry.
+bool is_read_whole(const fs::path& file, const fs::path& asked) {
+  const std::string ending = file.extension().string();
+  if (file == asked) return ending != ".mtx" && ending != ".op4" && ending != ".npy";
+  return ending == ".csv" || ending == ".toml" || ending == ".xlsx";
+}
+
 int compute(int argc, char** argv, const CommandLine& line, Step& step, const ConfiguredInputs& configured,
             StepContext& context) {
   const auto start = std::chrono::steady_clock::now();
@@ -257,27 +277,22 @@ fs::path StepContext::resolved(const std::string& path) const {
 
 bool StepContext::has_flag(const std::string& name) const { return flag(name).has_value(); }
 
-fs::path StepContext::input(const fs::path& asked) {
+fs::path StepContext::input(const fs::path& asked, std::uintmax_t most_bytes) {
   const fs::path path = shipped(asked);
   if (!fs::exists(path)) {
     throw InputError({path.string(), 0, ""}, "does not exist",
                      "run the step that writes it, or point to your own data (--help)");
   }
+  const std::vector<fs::path> files = files_of(path);
+  for (const fs::path& file : files) {
+    if (is_read_whole(file, path)) io::refuse_longer(file, most_bytes);
+  }
   io::check_against_manifest(path);
-  const auto register_file = [&](const fs::path& file) { input_hashes_.emplace(file.generic_string(), io::sha256(file)); };
-  if (!fs::is_directory(path)) {
-    register_file(path);
-    return path;
-  }
-  std::vector<fs::path> files;
-  for (const auto& entry : fs::recursive_directory_iterator(path)) {
-    // A manifest tells seconds and dates of another step; what counts is the files that it vouches for.
-    if (entry.is_regular_file() && entry.path().filename() != "manifest.json") files.push_back(entry.path());
-  }
-  std::sort(files.begin(), files.end());
-  std::for_each(files.begin(), files.end(), register_file);
+  for (const fs::path& file : files) input_hashes_.emplace(file.generic_string(), io::sha256(file));
   return path;
 }
+
+fs::path StepContext::record(const fs::path& path) { return input(path, std::numeric_limits<std::uintmax_t>::max()); }
 
 int run_step(int argc, char** argv, Step step) {
   let_writing_fail();

@@ -11,6 +11,7 @@
 #include "core/error.hpp"
 #include "core/reporter.hpp"
 #include "io/config.hpp"
+#include "io/text_lines.hpp"
 
 /// Room runner: the program round every step. It takes the command line, the study's settings and what a step is (`Step`: its
 /// keys, its options, how it reads, what it computes). It gives a run with one contract for all of them: options, exit codes,
@@ -33,7 +34,11 @@ class StepContext : public Reporter {
 
   /// Registers a file, or every file of a folder, as an input for the manifest, checks it against its own step's manifest,
   /// returns it.
-  std::filesystem::path input(const std::filesystem::path& path);
+  /// @param most_bytes   of a deck, a table or a configuration, which are read whole
+  /// @throws InputError  for a longer file, before any of it is read
+  std::filesystem::path input(const std::filesystem::path& path, std::uintmax_t most_bytes = io::longest_text);
+  /// The same for a record, which is read in parts and may have any length.
+  std::filesystem::path record(const std::filesystem::path& path);
   /// The path that a configuration names: "{results}/…" lies below --results, other paths are relative to the current folder.
   [[nodiscard]] std::filesystem::path resolved(const std::string& path) const;
   /// A line for people on stderr, prefixed with the step's token; nothing with --quiet. What is said while the inputs are read

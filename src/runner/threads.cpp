@@ -1,11 +1,13 @@
 #include "runner/threads.hpp"
 
+#include <fcntl.h>
 #include <fmt/format.h>
 #include <sys/resource.h>
 #include <unistd.h>
 
 #include <algorithm>
 #include <array>
+#include <cerrno>
 #include <latch>
 #include <string_view>
 #include <system_error>
@@ -79,6 +81,19 @@ void check_stack() {
          "run it where 'ulimit -s' says 8192, which systems start with");
 }
 
+/// A step that finds too few open files while it writes could not remove what it has begun either.
+void check_open_files() {
+  constexpr std::size_t needed = 16;  // at once: a table, a record and what it includes, and the folders of a removal
+  std::vector<int> opened;
+  for (int file = 0; opened.size() < needed && (file = ::open("/dev/null", O_RDONLY | O_CLOEXEC)) >= 0;) opened.push_back(file);
+  const bool too_few = opened.size() < needed && errno == EMFILE;
+  for (const int file : opened) ::close(file);
+  if (too_few)
+    throw InputError({"command line", 0, ""},
+                     fmt::format("this shell allows {} more open files, expected at least {}", opened.size(), needed),
+                     "raise the limit: ulimit -n 256");
+}
+
 /// The system may allow fewer threads than asked for. OpenMP would end the program when it finds that out.
 void check_threads(int threads) {
   std::latch all_asked(1);
@@ -100,6 +115,7 @@ int set_threads(int asked) {
   if (const rlim_t memory = limit_of(RLIMIT_AS); asked <= 0 && memory > 0) {  // half of it is for the data
     threads = std::clamp(static_cast<int>(std::min<rlim_t>(memory / 2 / linalg::blas_memory_bytes, 1024)), 1, threads);
   }
+  check_open_files();
   check_stack();
   check_threads(threads);
   linalg::use_one_thread();

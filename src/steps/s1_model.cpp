@@ -5,14 +5,13 @@
 #include "dynamics/model_check.hpp"
 #include "dynamics/unit_slips.hpp"
 #include "model_io/any_model_folder.hpp"
-#include "model_io/export_matrices.hpp"
 #include "model_io/model_tables.hpp"
 #include "model_io/modes_io.hpp"
 #include "model_io/vtu.hpp"
 #include "ponte/generator.hpp"
 #include "runner/run_step.hpp"
 #include "runner/study.hpp"
-#include "steps/model/export_inp.hpp"
+#include "steps/model/exports.hpp"
 #include "steps/model/mesh_convergence.hpp"
 #include "steps/model/model_config.hpp"
 #include "steps/shared/model_source.hpp"
@@ -38,11 +37,7 @@ Status run(const steps::ModelConfig& config, const dynamics::ReadModel& read, bo
   if (model != nullptr) model_io::write_vtu(*model, loaded.system, modes, context.out / "model.vtu");
   model_io::write_model_tables(loaded, is_bridge ? model_io::PartOf(ponte::part_of) : model_io::PartOf(), context.out);
   model_io::save_model(loaded, loaded.theta, context.out / "model");
-  if (context.has_flag("export-matrices")) {
-    model_io::write_matrices(loaded.system, loaded.theta, context.out);
-    if (model != nullptr) model_io::write_damping(*model, loaded.system, loaded.theta, context.out);
-  }
-  if (context.has_flag("export-inp")) steps::export_inp(loaded, static_cast<int>(config.n_modes), context);
+  steps::write_exports(loaded, modes, static_cast<int>(config.n_modes), context);
 
   // 4. The same modes on other meshes: how far this one is from converged.
   if (!config.meshes.empty() && is_bridge) {
@@ -71,10 +66,7 @@ int main(int argc, char** argv) {
                    "s1_model --model my_bridge --out results/my_bridge/s1_model --export-matrices",
                    "s1_model --model frame.inp --out results/frame/s1_model --export-inp"};
   step.fields = config.fields();
-  step.flags = {
-      {"export-matrices", false,
-       "also write K.mtx, M.mtx, dofs.csv of the state whose modes are in modes.csv, and C.mtx where there are dampers"},
-      {"export-inp", false, "also write the model for CalculiX (model.inp) and Abaqus (model_abaqus.inp)"}};
+  step.flags = steps::export_flags();
   step.read = [&config](runner::StepContext& context) { return read(config, context); };
   return runner::run_step(argc, argv, std::move(step));
 }

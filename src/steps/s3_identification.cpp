@@ -6,6 +6,7 @@
 #include "records/inspect.hpp"
 #include "runner/run_step.hpp"
 #include "steps/identification/identification_config.hpp"
+#include "steps/identification/imported_modes.hpp"
 #include "steps/identification/inputs.hpp"
 #include "steps/identification/outputs.hpp"
 #include "steps/identification/stay_tables.hpp"
@@ -59,6 +60,7 @@ int main(int argc, char** argv) {
   step.examples = {
       "s3_identification --campaign my_campaign --out results/my_bridge/s3_identification --set setup=ST1 --set decimation=8",
       "s3_identification --inspect measurement.csv",
+      "s3_identification --modes modes.unv --out results/my_bridge/s3_identification --set imported_std_pct=0.5",
       "s3_identification --study workflows/ponte_del_mare_virtual --results results/ponte_del_mare_virtual --out "
       "results/ponte_del_mare_virtual/s3_identification"};
   step.flags = {{"inspect", true, "tell what a record file holds (CSV, NPY, MAT, HDF5, universal file) and end",
@@ -69,6 +71,7 @@ int main(int argc, char** argv) {
     const auto order = fields.place_of("maximum_order");
     config.order_is_default = !order || order->file.empty();
     config.choices = steps::read_mode_choices(config.keep, context);
+    if (auto imported = steps::imported_modes(config.imported_std_pct, context)) return *imported;
     auto read = steps::read_identification_inputs(config, context);
     return [&config, &context, read = std::move(read)]() mutable { return run(config, read, context); };
   };

@@ -85,6 +85,17 @@ class Minimal(unittest.TestCase):
         _, modes = self.identified("mode", [("A", "ambient", "still", ["c01"], vibrating([2.5], 600, 50.0, 3, 0.01), 50.0)], references=("c01",))
         self.assert_modes(modes, [2.5])
 
+    def test_a_mode_near_the_nyquist_frequency_is_found_and_told(self):
+        """Records at 25 Hz, in which 11.3 Hz lies above the passband of a filter that none has gone through."""
+        data = vibrating([2.0, 5.5, 11.3], 360, 25.0, 7, 0.01)
+        said, modes = self.identified("near", [("A", "ambient", "still", ["c01"], data, 25.0)], references=("c01",))
+        self.assert_modes(modes, [2.0, 5.5, 11.3], 0.02)
+        self.assertIn("up to 12.5 Hz, the Nyquist frequency, because the spectrum has a peak at 11.", said)
+        # With modes below that alone the record is decimated no further than these ask for, and the band ends as it did.
+        said, modes = self.identified("below", [("A", "ambient", "still", ["c01"], vibrating([2.0, 5.5], 360, 25.0, 7, 0.01), 25.0)], references=("c01",))
+        self.assert_modes(modes, [2.0, 5.5], 0.02)
+        self.assertIn("0.8 of the Nyquist frequency", said)
+
     def test_a_pure_sine_is_a_line_and_no_mode(self):
         t = np.arange(6000) / 100.0
         for noise in (0.0, 1e-4):

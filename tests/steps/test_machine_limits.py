@@ -60,6 +60,60 @@ class Limits(unittest.TestCase):
             done = subprocess.run([BIN / "s1_model", "--model", model, "--out", out], cwd=self.folder, capture_output=True, text=True)
             self.refused(done, "too long for the file system")
 
+    def test_few_open_files(self):
+        for files in range(5, 24):
+            done = self.run_step("s1_model", f"ulimit -n {files}", "--quiet")
+            if done.returncode != 0:
+                self.refused(done, "raise the limit: ulimit -n 256")
+            else:
+                self.assertGreater(files, 15)
+        self.assertEqual(self.run_step("s1_model", "ulimit -n 256", "--quiet").returncode, 0)
+
+    def test_a_file_that_is_too_long_is_refused_before_it_is_read(self):
+        """Forty gigabytes of a file with holes: to read it once takes a minute and more."""
+        for name, step, options in (("deck.inp", "s1_model", "--model deck.inp"), ("features/rows.csv", "s6_updating", STEPS["s6_updating"]),
+                                    ("model/notes.csv", "s1_model", STEPS["s1_model"])):
+            file = self.folder / name
+            kept = file.read_bytes() if file.exists() else None
+            with open(file, "ab") as stream:
+                stream.truncate(40_000_000_000)
+            done = subprocess.run(["bash", "-c", f"exec '{BIN}/{step}' {options} --out out/x"], cwd=self.folder, capture_output=True, text=True, timeout=20)
+            self.refused(done, f"{name}: has 40.0 GB, expected at most 2 GB")
+            file.unlink()
+            if kept is not None:
+                file.write_bytes(kept)
+
+    def test_thousands_of_channels(self):
+        folder = self.folder / "many"
+        folder.mkdir()
+
+        def campaign(n, setups):
+            names = [f"c{i}" for i in range(n)]
+            (folder / "channels.csv").write_text("channel,unit,reference\n" + "".join(f"{name},m/s2,{int(i == 0)}\n" for i, name in enumerate(names)))
+            own = [[names[0]] + [name for i, name in enumerate(names[1:]) if i % setups == s] for s in range(setups)]
+            text = ""
+            for s, channels in enumerate(own):
+                np.save(folder / f"{s}.npy", np.random.default_rng(s).standard_normal((6000, len(channels))).astype("f4"))
+                text += f'[[record]]\nsetup = "S{s}"\nfile = "{s}.npy"\nsampling_rate_Hz = 50.0\nchannels = {channels}\n'.replace("'", '"')
+            (folder / "campaign.toml").write_text(text)
+            return subprocess.run([BIN / "s3_identification", "--campaign", folder, "--out", self.folder / "out/x", "--check", "--quiet"], capture_output=True,
+                                  text=True, timeout=20)
+
+        self.refused(campaign(5000, 1), "campaign.toml:5: channels: 5000 response channels are to be identified together, expected at most 500")
+        done = campaign(501, 2)  # the remedy: two setups that share a reference
+        self.assertEqual(done.returncode, 0, done.stderr)
+
+    def test_messages_tell_nothing_of_a_file_that_is_no_deck(self):
+        texts = ("root:$6$SALT9fQ7xR2mW4kZ:19000:0:99999:7:::\ndaemon:*:1:::\n", "*aSALT9fQ7xR2mW4kZ,SALT9fQ7xR2mW4kZ=SALT9fQ7xR2mW4kZ\nSALT9fQ7xR2mW4kZ\n*Y\n", "*$6$SALT9fQ7xR2mW4kZ, x\n",
+                 "HOME=/root\0SECRET=SALT9fQ7xR2mW4kZ\0PATH=/bin\0", "HOME=/root\nSECRET=SALT9fQ7xR2mW4kZ\nTOKEN SALT9fQ7xR2mW4kZ\n", "-----BEGIN KEY-----\nSALT9fQ7xR2mW4kZSALT9fQ7xR2mW4kZ\n")
+        for ending in (".inp", ".bdf", ".dat", ".cdb", ".s2k"):
+            for text in texts:
+                file = self.folder / f"deck{ending}"
+                file.write_text(text)
+                done = subprocess.run([BIN / "s1_model", "--model", file, "--out", self.folder / "out/x"], capture_output=True, text=True, timeout=20)
+                self.assertEqual((done.returncode, done.stderr.count("\n")), (2, 1), done.stderr)
+                self.assertNotIn("SALT9fQ7xR2mW4kZ", done.stderr)
+
     def test_a_limit_of_the_size_of_files(self):
         self.refused(self.run_step("s1_model", "ulimit -f 1", "--quiet"), "cannot be written")
 

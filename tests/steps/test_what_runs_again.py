@@ -78,6 +78,26 @@ class RunsAgain(OfOneStudy):
                 os.utime(file, (stamp.st_atime, stamp.st_mtime))
         self.assertEqual(self.would_run(), [])
 
+    def test_content_counts_where_the_time_does_not_tell(self):
+        """`cp -p` of an edited file keeps its time; a file that is written again with the same content counts as unchanged."""
+        readers = {}
+        for step in STEPS:
+            for name in self.inputs(step):
+                readers.setdefault(name, step)  # the first that read it; later ones read what that makes
+        earlier = self.root / "earlier"
+        for name, step in readers.items():
+            file = self.root / name
+            kept, stamp = file.read_bytes(), file.stat()
+            for content in (kept + b"\n# another\n", kept):
+                earlier.write_bytes(content)
+                os.utime(earlier, (stamp.st_atime, stamp.st_mtime))
+                shutil.copy2(earlier, file)
+                if content != kept:
+                    self.assertIn(step, self.would_run(), name)
+                    self.assertIn(f"{step}/manifest.json: {name} has changed\n", self.make("why", step).stdout)
+        self.assertEqual(self.would_run(), [])
+        self.assertEqual(self.make("why", "s9").stdout, "s9_diagnosis: up to date\n")
+
     def test_only_the_steps_that_read_a_file_run_again(self):
         file = self.root / "my_causes/mass.toml"
         stamp = file.stat()

@@ -119,7 +119,8 @@ DiagnosisInputs prepare_diagnosis(const DiagnosisConfig& config, const Diagnosis
   diagnosis::FeatureMap as_it_stands(*inputs.reduced, inputs.features, config.scatter);
   as_it_stands.bind_modes(bound_modes(config, inputs));
   inputs.account = diagnosis::account_of(files.claims, inputs.features, files.channels, inputs.places, &as_it_stands);
-  judge_units(context, loaded, inputs.reduced->frequency_Hz, frequencies_of(inputs.features));
+  judge_units(context, loaded, inputs.reduced->frequency_Hz, frequencies_of(inputs.features),
+              dynamics::FactorWithinBounds::is_refused);
   const double least_mac = config.least_mac > 0.0 || !inputs.bar_stays ? config.least_mac : kAlike;
   if (const auto unpaired = diagnosis::leave_out_unpaired(least_mac, config.scatter, *inputs.reduced, inputs.features))
     inputs.account.push_back(*unpaired);

@@ -35,6 +35,8 @@ io::FieldTable IdentificationConfig::fields() {
             "CSV file of poles that a person kept or deleted (setup,order,frequency_Hz,damping_ratio_pct,action), as the "
             "report's "
             "stabilisation diagram writes it; empty: none")
+      .number("imported_std_pct", imported_std_pct, "", {0.0, 50.0},
+              "standard deviation in per cent that frequencies of a universal file (--modes FILE) are given; 0: none")
       .integer("longest_gap", longest_gap, io::non_negative(),
                "samples missing in a row that may be bridged by a straight line")
       .number("largest_clipping", largest_clipping, "", {0.0, 1.0},
@@ -46,7 +48,8 @@ io::FieldTable IdentificationConfig::fields() {
                "every so many-th sample is kept, after a zero-phase low-pass; 0: chosen from the highest peak of the spectrum")
       .number("band.lowest", lowest_Hz, "Hz", io::non_negative(), "poles below are left out")
       .number("band.highest", highest_Hz, "Hz", io::non_negative(),
-              "poles above are left out; 0: up to where the sensors move together, at most 0.8 of the Nyquist frequency")
+              "poles above are left out; 0: up to where the sensors move together, at most 0.8 of the Nyquist frequency, or "
+              "all of it where a record as it is has a peak above")
       .integer("block_rows", block_rows, {0.0, 500.0},
                "block rows of the Toeplitz or Hankel matrix; twice as many lags are used; 0: three periods of the lowest peak")
       .integer("minimum_order", minimum_order, {2.0, 500.0}, "smallest model order")

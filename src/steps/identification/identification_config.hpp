@@ -12,7 +12,8 @@ struct IdentificationConfig : identification::IdentificationSettings {
     decimation = block_rows = decay_decimation = decay_block_rows = stay_decimation = stay_block_rows = 0;
     decay_length_s = 0.0;
   }
-  std::string keep;  ///< file of choices by hand
+  std::string keep;               ///< file of choices by hand
+  double imported_std_pct = 0.0;  ///< [%] of frequencies of `--modes FILE`; 0: unknown
   [[nodiscard]] io::FieldTable fields();
 };
 

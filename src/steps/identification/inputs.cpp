@@ -36,7 +36,7 @@ records::Campaign read_lists(runner::StepContext& context) {
     if (std::filesystem::exists(folder / name)) context.input(folder / name);
   }
   for (const records::CampaignRecord& record : campaign.records) {
-    if (std::filesystem::exists(record.file)) context.input(record.file);
+    if (std::filesystem::exists(record.file)) context.record(record.file);
   }
   return campaign;
 }

@@ -87,7 +87,7 @@ buffeting::MeasuredRms measured_rms(runner::StepContext& context, const Validati
     MeanSquares squares;
     for (const records::RecordGroup& group : records::record_groups(campaign, choice)) {
       for (const records::CampaignRecord& record : group.records) {
-        context.input(record.file);
+        context.record(record.file);
         const records::RecordSamples recorded = records::read_record(campaign, record);
         for (const std::string& note : recorded.notes) context.say(note);
         const Eigen::MatrixXd data = signal::detrended(recorded.values);

@@ -8,7 +8,7 @@ def main(file):
     with open(file, newline="", encoding="utf-8") as stream:
         rows = list(csv.DictReader(stream))
     order = {program: i for i, program in enumerate(("Nastran", "Abaqus", "CalculiX", "ANSYS", "SAP2000"))}
-    rows.sort(key=lambda row: (order[row["program"]], row["deck"]))  # stable: modes stay in their order
+    rows.sort(key=lambda row: (order[row["program"].split(",")[0]], row["deck"]))  # stable: modes stay in their order
     print("| program | deck | modes | known from | largest difference % | allowed % | remark |\n|---|---|---|---|---|---|---|")
     for (program, deck), modes in groupby(rows, key=lambda row: (row["program"], row["deck"])):
         modes = list(modes)

@@ -55,5 +55,22 @@ TEST(DoubtfulMesh, AnElementThatIsListedTwiceIsTold) {
   EXPECT_TRUE(doubtful_mesh(model).empty());
 }
 
+TEST(DoubtfulMesh, ShellsThatAreNoThinPlatesAreTold) {
+  fe::Model model;
+  for (const double x : {0.0, 10.0})
+    for (const double y : {0.0, 10.0}) model.nodes.push_back({static_cast<long>(model.nodes.size()) + 1, {x, y, 0.0}});
+  model.sections.emplace_back().thickness_m = 1.0;
+  fe::Element& shell = model.elements.emplace_back();
+  shell.type = fe::ElementType::shell;
+  shell.group = "slab";
+  shell.section = 0;
+  shell.nodes = {0, 2, 3, 1};
+  const auto lines = doubtful_mesh(model);
+  ASSERT_EQ(lines.size(), 1U);
+  EXPECT_NE(lines.front().find("shells of group 'slab' are 1 m thick and all shells together 10 m wide"), std::string::npos);
+  model.sections.front().thickness_m = 0.5;
+  EXPECT_TRUE(doubtful_mesh(model).empty());
+}
+
 }  // namespace
 }  // namespace twindeck::dynamics

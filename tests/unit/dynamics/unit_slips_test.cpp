@@ -99,14 +99,15 @@ TEST(UnitSlips, OneFactorThatNoParameterReachesIsRefused) {
   LoadedModel loaded;
   loaded.source = "model";
   loaded.system.parameters = {{"E", fe::Target::youngs_modulus, {"steel"}, "Pa", 200e9, 150e9, 250e9}};
-  EXPECT_THROW(refuse_one_factor(loaded, computed, {measured}), InputError);
+  EXPECT_THROW(refuse_one_factor(loaded, computed, {measured}, FactorWithinBounds::passes), InputError);
   loaded.system.parameters[0].upper = 2500e9;  // reaches a factor of ten
-  EXPECT_NO_THROW(refuse_one_factor(loaded, computed, {measured}));
+  EXPECT_NO_THROW(refuse_one_factor(loaded, computed, {measured}, FactorWithinBounds::passes));
+  EXPECT_THROW(refuse_one_factor(loaded, computed, {measured}, FactorWithinBounds::is_refused), InputError);
   loaded.system.parameters.clear();
   const MeasuredFrequencies two{{"1", "2"}, Eigen::Vector2d(1.2142, 2.2873)};
-  EXPECT_NO_THROW(refuse_one_factor(loaded, computed, {two}));
+  EXPECT_NO_THROW(refuse_one_factor(loaded, computed, {two}, FactorWithinBounds::passes));
   const MeasuredFrequencies uneven{{"1", "2", "3"}, Eigen::Vector3d(1.2142, 2.2873, 3.9)};
-  EXPECT_NO_THROW(refuse_one_factor(loaded, computed, {uneven}));
+  EXPECT_NO_THROW(refuse_one_factor(loaded, computed, {uneven}, FactorWithinBounds::passes));
 }
 
 TEST(UnitSlips, CoordinatesInMillimetres) {

@@ -28,7 +28,7 @@ inline void enter_in_deck_table(const KnownDeck& of, const std::vector<double>& 
   std::ofstream stream(table, std::ios::app);
   if (fresh) stream << "program,deck,mode,known_Hz,found_Hz,difference_pct,allowed_pct,known_from,remark\n";
   for (std::size_t i = 0; i < known_Hz.size(); ++i)
-    stream << fmt::format("{},{},{},{:.7g},{:.7g},{},{:.4g},\"{}\",\"{}\"\n", of.program, of.deck, i + 1, known_Hz[i],
+    stream << fmt::format("\"{}\",\"{}\",{},{:.7g},{:.7g},{},{:.4g},\"{}\",\"{}\"\n", of.program, of.deck, i + 1, known_Hz[i],
                           found_Hz[i],
                           known_Hz[i] > 0.0 ? fmt::format("{:.4g}", 100.0 * (found_Hz[i] / known_Hz[i] - 1.0)) : "",
                           100.0 * of.tolerance, of.from, of.remark);

@@ -38,6 +38,23 @@ TEST(InpCouplings, KinematicIsARigidArm) {
   }
 }
 
+/// CalculiX: the displacements of ROT NODE are the body's rotations. Two of them are held there, the third has the spring.
+TEST(InpCouplings, RigidBodyWithANodeOfItsRotations) {
+  const double f = std::sqrt(450.0 / (2.0 * 9.0)) / (2.0 * pi);
+  const std::string body = "*NSET, NSET=BODY\n2\n*NODE\n7, 0, 0, 0\n*RIGID BODY, NSET=BODY, REF NODE=1, ROT NODE=7\n";
+  std::string deck = pendulum(body);
+  deck.replace(deck.find("1, 1, 5\n"), 8, "1, 1, 3\n7, 1, 2\n");
+  EXPECT_NEAR(frequencies(deck_model(deck).model, 1).at(0) / f, 1.0, 1e-9);
+  std::string held = deck;
+  held.replace(held.find("7, 1, 2\n"), 8, "7, 1, 3\n");
+  EXPECT_TRUE(deck_model(held).model.supports.front().fixed[5]);
+  // A spring at that node is refused; at the reference node, as the message says, it is the pendulum's.
+  std::string sprung = deck;
+  sprung.replace(sprung.find("1, 1\n*SPRING, ELSET=HINGE\n6"), 27, "1, 7\n*SPRING, ELSET=HINGE\n3");
+  EXPECT_NE(refusal_of(sprung).find("ROT NODE 7 carries an element, spring or mass too"), std::string::npos)
+      << refusal_of(sprung);
+}
+
 TEST(InpCouplings, KinematicInSomeDirectionsLeavesTheOthers) {
   // Only y follows; in x and z the mass hangs on springs of its own.
   const std::string deck = pendulum(

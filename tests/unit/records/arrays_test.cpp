@@ -3,6 +3,9 @@
 #include <hdf5.h>
 #include <matio.h>
 
+#include <ctime>
+#include <functional>
+
 #include "core/error.hpp"
 #include "npy_double.hpp"
 #include "records/inspect.hpp"
@@ -102,6 +105,45 @@ TEST(ArrayRecord, DamagedFilesAreRefused) {
   const Scratch scratch;
   EXPECT_THROW(static_cast<void>(read(scratch.write("a.mat", "MATLAB 5.0 MAT-file, nothing follows"))), InputError);
   EXPECT_THROW(static_cast<void>(read(scratch.write("a.h5", "\x89HDF\r\n\x1a\n and nothing"))), InputError);
+}
+
+/// [s] of the processor, which other work on the machine does not lengthen.
+double processor_seconds(const std::function<void()>& work) {
+  const std::clock_t start = std::clock();
+  work();
+  return static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC;
+}
+
+// Oracle: a property. The file has one deflated chunk, and one read of the library decompresses it once. The scan of its some
+// hundred blocks takes a few times as long, and not a hundred times.
+TEST(Hdf5Record, DecompressesAChunkOnceForAllBlocksInIt) {
+  const Scratch scratch;
+  constexpr hsize_t rows = 2'000'000, columns = 8;
+  for (const bool along_rows : {false, true}) {
+    const std::string file = scratch.file("chunk.h5").string();
+    const hsize_t dims[2] = {along_rows ? columns : rows, along_rows ? rows : columns};
+    const hid_t h5 = H5Fcreate(file.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT), settings = H5Pcreate(H5P_DATASET_CREATE),
+                space = H5Screate_simple(2, dims, nullptr);
+    H5Pset_chunk(settings, 2, dims);
+    H5Pset_deflate(settings, 1);
+    const hid_t set = H5Dcreate2(h5, "a", H5T_STD_I16LE, space, H5P_DEFAULT, settings, H5P_DEFAULT);
+    std::vector<std::int16_t> values(rows * columns);
+    for (std::size_t i = 0; i < values.size(); ++i) values[i] = static_cast<std::int16_t>(i % 1000);
+    H5Dwrite(set, H5T_NATIVE_INT16, H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data());
+    const double once =
+        processor_seconds([&] { H5Dread(set, H5T_NATIVE_INT16, H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()); });
+    H5Dclose(set);
+    H5Pclose(settings);
+    H5Sclose(space);
+    H5Fclose(h5);
+    Eigen::Index samples_seen = 0;
+    const double whole = processor_seconds([&] {
+      static_cast<void>(
+          scan(file, [&](Eigen::Index, Eigen::Index, const Eigen::MatrixXd& block) { samples_seen += block.rows(); }));
+    });
+    EXPECT_EQ(samples_seen, static_cast<Eigen::Index>(rows));
+    EXPECT_LT(whole, 40.0 * once + 1.0) << along_rows;
+  }
 }
 
 }  // namespace
