@@ -65,13 +65,16 @@ std::optional<Growth> find_growth(const AeroelasticSystem& system, double speed_
   const std::vector<ComplexMode> frozen = frozen_motions(system, speed_m_s, frequencies.frozen_omega);
   std::optional<ComplexMode> fastest;
   for (const ComplexMode& motion : frozen)
-    if (motion.lambda.imag() <= frequencies.counted_to) keep_the_faster(fastest, motion);
+    if (motion.lambda.imag() <= frequencies.frozen_to) keep_the_faster(fastest, motion);
   const bool of_frozen = fastest.has_value();
   if (!of_frozen) {
     for (const ComplexMode& start : frozen) {
-      if (start.lambda.imag() < frequencies.own.lowest || start.lambda.imag() > frequencies.own.highest) continue;
-      if (const std::optional<ComplexMode> own = mode_near(system, start, speed_m_s, frequencies.own))
-        keep_the_faster(fastest, *own);
+      const double omega = start.lambda.imag();
+      const bool above = omega > frequencies.frozen_to;
+      if (!above && (omega < frequencies.own.lowest || omega > frequencies.own.highest)) continue;
+      const FrequencyRange range = above ? FrequencyRange{frequencies.own.lowest} : frequencies.own;
+      const std::optional<ComplexMode> own = mode_near(system, start, speed_m_s, range);
+      if (own || above) keep_the_faster(fastest, own.value_or(start));
     }
   }
   if (!fastest) return std::nullopt;
