@@ -10,7 +10,7 @@ from .style import ACCENT, GOOD, INK, PALE, WARN, plt
 NAME = "fragility"
 CAPTION = ("Probability that an acceleration exceeds the comfort limit of step 8 within ten minutes, and that the bridge is unstable, given the mean wind. Solid: in the first year; "
            "dashed: in the last year that was computed, with the loss of section of the assumed corrosion. Bands of the comfort curves: 5 to 95 % over the "
-           "random inputs of random.csv; the bar on each curve of instability: 5 to 95 % of the critical speed. Curves end where the bridge is unstable or nearly so. "
+           "random inputs of random.csv; a probability is the mean over them, so that it lies above its band where a few of them make all excursions. The bar on each curve of instability: 5 to 95 % of the critical speed. Curves end where the bridge is unstable or nearly so. "
            "All is conditional on the mean wind.")
 NEEDS = ("s10_reliability",)
 COLOURS = (INK, ACCENT, GOOD, WARN, "#5b3a8c")
@@ -56,7 +56,7 @@ def draw(study: Study):
         panels[2].text(0.03, 0.93, "no followed mode loses its damping:\n" + "\n".join(stable), transform=panels[2].transAxes, fontsize=7, va="top", color="#5b6673")
     panels[2].set_title(f"instability, model {model}", loc="left")
     for axes in panels:
-        axes.set_xlim(0, reach)
+        axes.set_xlim(0, reach if axes is panels[2] else 1.05 * highest)
         axes.set_ylim(-0.02, 1.02)
         axes.set_xlabel("mean wind speed (m/s)")
     panels[0].set_ylabel("probability")

@@ -124,6 +124,17 @@ TEST(Crossings, VanmarckesCorrectionTakesClumpsOut) {
   EXPECT_GT(found.poisson, 1.5 * counted);
 }
 
+TEST(Crossings, AFarLimitHasItsOwnSmallProbability) {
+  // Beyond eight deviations 1 - exp(-x) is rounding. There crossings come alone: 2 nu T exp(-r²/2), Vanmarcke's below Poisson's.
+  const SpectralMoments moments = oscillator_moments(7.85, 0.02);
+  for (const double level : {9.0, 20.0, 35.0}) {
+    const FirstExcursion found = first_excursion(moments, level, 600.0);
+    EXPECT_NEAR(found.poisson / (2.0 * 7.85 / (2.0 * std::numbers::pi) * 600.0 * std::exp(-0.5 * level * level)), 1.0, 1e-9);
+    EXPECT_GT(found.vanmarcke, 0.3 * found.poisson);
+    EXPECT_LE(found.vanmarcke, found.poisson * (1.0 + 1e-2));
+  }
+}
+
 TEST(Crossings, WithoutMotionNothingIsExceeded) {
   EXPECT_EQ(first_excursion(SpectralMoments{}, 1.0, 600.0).vanmarcke, 0.0);
   EXPECT_EQ(crossing_rate_Hz(SpectralMoments{}, 1.0), 0.0);
