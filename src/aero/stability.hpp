@@ -21,8 +21,8 @@ struct Growth {
 struct DerivativeFrequencies {
   double frozen_omega = 0.0;        ///< of equations in time
   FrequencyRange own = {0.0, 0.0};  ///< modes in here are also held against derivatives of their own frequency
-  /// Up to this frequency a motion counts by the frozen derivatives. Above it, where these say nothing, it counts by the
-  /// derivatives of its own frequency alone.
+  /// Growth of a motion above this frequency, where the frozen derivatives say nothing, counts if the motion also grows with
+  /// derivatives of its own frequency.
   double frozen_to = std::numeric_limits<double>::infinity();
 };
 
