@@ -14,6 +14,7 @@ CAPTION = ("Probability that an acceleration exceeds the comfort limit of step 8
            "All is conditional on the mean wind.")
 NEEDS = ("s10_reliability",)
 COLOURS = (INK, ACCENT, GOOD, WARN, "#5b3a8c")
+WIDEST, THINNER = 2.4, 0.6  # line widths: a curve below another one of nearly the same values still shows
 COMFORT = (("comfort_vertical", "vertical comfort"), ("comfort_lateral", "lateral comfort"))
 
 
@@ -44,7 +45,7 @@ def draw(study: Study):
     for axes, (state, title) in zip(panels, COMFORT):
         for (case, year), rows in fragility[fragility["limit_state"] == state].groupby(["case", "years"], sort=False):
             if year in years:
-                _curve(axes, rows, cases[case], year == years[0])
+                _curve(axes, rows, cases[case], year == years[0], WIDEST - list(cases).index(case) * THINNER)
         axes.set_title(title, loc="left")
     highest = max(fragility["speed_m_s"].max(), 1.0)
     drawn = [row for row in critical.to_dict("records") if row["model"] == model and row["years"] in years and not math.isnan(row["speed_m_s"])]
@@ -66,9 +67,9 @@ def draw(study: Study):
     return figure, fragility[fragility["years"].isin(years)].drop(columns="case")
 
 
-def _curve(axes, rows, colour, first):
+def _curve(axes, rows, colour, first, width):
     rows = rows.sort_values("speed_m_s")
-    axes.plot(rows["speed_m_s"], rows["probability"], color=colour, marker=".", linewidth=1.4, linestyle="-" if first else (0, (4, 3)), zorder=3)
+    axes.plot(rows["speed_m_s"], rows["probability"], color=colour, marker=".", linewidth=max(width, 1.0), linestyle="-" if first else (0, (4, 3)), zorder=3)
     if first:
         axes.fill_between(rows["speed_m_s"], rows["low"], rows["high"], color=colour, alpha=0.14, linewidth=0)
 
