@@ -125,7 +125,8 @@ TEST(Crossings, VanmarckesCorrectionTakesClumpsOut) {
 }
 
 TEST(Crossings, AFarLimitHasItsOwnSmallProbability) {
-  // Beyond eight deviations 1 - exp(-x) is rounding. There crossings come alone: 2 nu T exp(-r²/2), Vanmarcke's below Poisson's.
+  // Beyond eight deviations 1 - exp(-x) is rounding. There crossings come alone: 2 nu T exp(-r²/2), Vanmarcke's below
+  // Poisson's.
   const SpectralMoments moments = oscillator_moments(7.85, 0.02);
   for (const double level : {9.0, 20.0, 35.0}) {
     const FirstExcursion found = first_excursion(moments, level, 600.0);
