@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "aero/state_matrix.hpp"
+#include "core/parallel.hpp"
 
 namespace twindeck::aero {
 namespace {
@@ -65,14 +66,22 @@ std::optional<Growth> find_growth(const AeroelasticSystem& system, double speed_
   const std::vector<ComplexMode> frozen = frozen_motions(system, speed_m_s, frequencies.frozen_omega);
   std::optional<ComplexMode> fastest;
   for (const ComplexMode& motion : frozen)
-    if (motion.lambda.imag() <= frequencies.counted_to) keep_the_faster(fastest, motion);
+    if (motion.lambda.imag() <= frequencies.frozen_to) keep_the_faster(fastest, motion);
   const bool of_frozen = fastest.has_value();
   if (!of_frozen) {
-    for (const ComplexMode& start : frozen) {
-      if (start.lambda.imag() < frequencies.own.lowest || start.lambda.imag() > frequencies.own.highest) continue;
-      if (const std::optional<ComplexMode> own = mode_near(system, start, speed_m_s, frequencies.own))
-        keep_the_faster(fastest, *own);
-    }
+    std::vector<std::optional<ComplexMode>> own(frozen.size());
+    parallel_for(std::ssize(frozen), [&](Eigen::Index i) {
+      const ComplexMode& start = frozen[static_cast<std::size_t>(i)];
+      const double omega = start.lambda.imag();
+      const bool above = omega > frequencies.frozen_to;
+      if (above ? !grows(start) : omega < frequencies.own.lowest || omega > frequencies.own.highest) return;
+      const FrequencyRange range = above ? FrequencyRange{frequencies.own.lowest} : frequencies.own;
+      std::optional<ComplexMode>& found = own[static_cast<std::size_t>(i)];
+      found = mode_near(system, start, speed_m_s, range);
+      if (above && !found) found = start;
+    });
+    for (const std::optional<ComplexMode>& motion : own)
+      if (motion) keep_the_faster(fastest, *motion);
   }
   if (!fastest) return std::nullopt;
   return Growth{*fastest, nearest_mode(still_air_modes(system.structure()), *fastest), !of_frozen};

@@ -21,11 +21,14 @@ struct Growth {
 struct DerivativeFrequencies {
   double frozen_omega = 0.0;        ///< of equations in time
   FrequencyRange own = {0.0, 0.0};  ///< modes in here are also held against derivatives of their own frequency
-  double counted_to = std::numeric_limits<double>::infinity();  ///< highest frequency of a motion that counts
+  /// Growth of a motion above this frequency, where the frozen derivatives say nothing, counts if the motion also grows with
+  /// derivatives of its own frequency.
+  double frozen_to = std::numeric_limits<double>::infinity();
 };
 
 /// The motion that grows fastest at a wind speed, of the equations with frozen derivatives; if none grows there, with
-/// derivatives of each mode's own frequency. Such a system has no stationary response, so neither an RMS nor a spectrum.
+/// derivatives of each mode's own frequency. A motion above `frozen_to` that grows, and whose iteration with derivatives of
+/// its own frequency finds no mode, counts. Such a system has no stationary response, so neither an RMS nor a spectrum.
 /// @return empty for a stable system
 [[nodiscard]] std::optional<Growth> find_growth(const AeroelasticSystem& system, double speed_m_s,
                                                 const DerivativeFrequencies& frequencies);

@@ -30,13 +30,21 @@ std::complex<double> maxwell_stiffness(const aero::MaxwellUnit& unit, double ome
   return unit.stiffness_N_m * dashpot / (unit.stiffness_N_m + dashpot);
 }
 
-/// Real and imaginary parts of the transfer from unit turbulence of this size and drift, one below the other: both go through
-/// the real coherence by themselves.
-MatrixXd split_transfer(const MatrixXcd& transfer, const Eigen::VectorXcd& point) {
-  const MatrixXcd part = transfer * point.asDiagonal();
-  MatrixXd split(2 * part.rows(), part.cols());
-  split << part.real(), part.imag();
+/// Real and imaginary parts of a complex matrix, one below the other: both go through real factors by themselves.
+MatrixXd split_parts(const MatrixXcd& complex) {
+  MatrixXd split(2 * complex.rows(), complex.cols());
+  split << complex.real(), complex.imag();
   return split;
+}
+
+/// Split transfer from unit turbulence times the turbulence's size and drift at each strip.
+MatrixXd scaled_transfer(const Eigen::Ref<const MatrixXd>& split, const Eigen::VectorXcd& point) {
+  const Index rows = split.rows() / 2;
+  const VectorXd real = point.real(), imaginary = point.imag();
+  MatrixXd out(split.rows(), split.cols());
+  out.topRows(rows) = split.topRows(rows) * real.asDiagonal() - split.bottomRows(rows) * imaginary.asDiagonal();
+  out.bottomRows(rows) = split.topRows(rows) * imaginary.asDiagonal() + split.bottomRows(rows) * real.asDiagonal();
+  return out;
 }
 
 /// A slope's change of the impedance between pairs of vectors: parts that are zero are not multiplied.
@@ -128,16 +136,13 @@ MatrixXd response_spectra(const aero::AeroelasticSystem& system, double speed_m_
             .transpose();
     const MatrixXcd left = linalg::solve(std::move(z), sensors.transpose().cast<std::complex<double>>());
     const double power = std::pow(omega, options.derivative);
-    const MatrixXd real = power * left.real().transpose() * load, imaginary = power * left.imag().transpose() * load;
-    MatrixXcd transfer(real.rows(), real.cols());
-    transfer.real() = real;
-    transfer.imag() = imaginary;
+    const MatrixXd transfer = power * linalg::product(split_parts(left.transpose()), load);
     const double chi = options.admittance ? options.admittance(f_Hz[k]) : 1.0;
     for (std::size_t c = 0; c < fields.size(); ++c) {
       const wind::FieldDefinition& field = fields[c];
       const Index first = static_cast<Index>(c) * strips;
-      const MatrixXd split = split_transfer(transfer.middleCols(first, strips), turbulence_at_points(field, f_Hz[k]));
-      const VectorXd square = (split * wind::coherence(field, f_Hz[k])).cwiseProduct(split).rowwise().sum();
+      const MatrixXd split = scaled_transfer(transfer.middleCols(first, strips), turbulence_at_points(field, f_Hz[k]));
+      const VectorXd square = linalg::product(split, wind::coherence(field, f_Hz[k])).cwiseProduct(split).rowwise().sum();
       spectra.row(k) += chi * (square.head(sensors.rows()) + square.tail(sensors.rows())).transpose();
     }
   });

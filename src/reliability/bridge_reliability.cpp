@@ -208,7 +208,8 @@ UncertainMoments uncertain_moments(
   const aero::AeroelasticSystem system = at.system();
   const double turn = 2.0 * std::numbers::pi, frozen = response.bridge.frozen_omega;
   UncertainMoments out;
-  // The spectra end at the cutoff. Derivatives of the first mode say nothing of motions above it, many times faster.
+  // Derivatives of the first mode say nothing of motions above the spectra's cutoff, many times faster. Those are judged by the
+  // derivatives of their own frequency, like the modes that step 7 follows.
   const double highest = turn * response.settings.cutoff_Hz;
   const aero::DerivativeFrequencies frequencies{frozen, {turn * kLowestDerivatives_Hz, highest}, highest};
   if (const std::optional<aero::Growth> growth = aero::find_growth(system, speed_m_s, frequencies)) {

@@ -50,7 +50,7 @@ FirstExcursion first_excursion(const SpectralMoments& moments, double level, dou
   const double width = std::pow(moments.bandwidth(), 1.2);
   const double clumped = -std::expm1(-std::sqrt(0.5 * std::numbers::pi) * width * ratio);
   const double rate = both * clumped / below;
-  out.vanmarcke = 1.0 - below * std::exp(-rate * duration_s);
+  out.vanmarcke = -std::expm1(std::log(below) - rate * duration_s);
   return out;
 }
 

@@ -6,6 +6,7 @@
 #include <boost/math/special_functions/beta.hpp>
 #include <cmath>
 #include <optional>
+#include <string>
 
 #include "core/distributions.hpp"
 #include "core/random.hpp"
@@ -28,6 +29,11 @@ constexpr double kPenalty = 2.0;
 /// the reference).
 constexpr double kTestAccuracy = 2.0;
 
+/// A kink is where a move of less than this length [-] changes the slope by more than this share of |g(0)|, so often in one
+/// search.
+constexpr double kShortMove = 0.05, kJump = 0.25;
+constexpr int kJumps = 3;
+
 class Search {
  public:
   Search(const LimitState& g, Index n, const FormOptions& options) : g_(g), n_(n), options_(options) {
@@ -42,12 +48,16 @@ class Search {
   }
 
   std::optional<DesignPoint> from(VectorXd u) {
-    double g = value(u);
+    double g = value(u), moved = 0.0;
+    VectorXd before_slope;
+    int jumps = 0;
     for (int k = 0; k < options_.iterations; ++k) {
       const VectorXd slope = gradient(u);
       const double steepness = slope.norm();
       if (!(steepness > 1e-12 * scale_)) return std::nullopt;
       const VectorXd down = -slope / steepness;  // towards the limit
+      jumps += k > 0 && moved < kShortMove && (slope - before_slope).norm() > kJump * scale_ ? 1 : 0;
+      before_slope = slope;
       const VectorXd target = down * (down.dot(u) + g / steepness);
       const double aside = (u - down * down.dot(u)).norm();
       if (aside < std::max(options_.tolerance, 1e-6) * std::max(1.0, u.norm()) && std::abs(g) < options_.tolerance * scale_) {
@@ -68,14 +78,17 @@ class Search {
         next = u + step * move;
         g_next = value(next);
       }
-      if ((next - u).norm() < 1e-14 * std::max(1.0, u.norm())) return std::nullopt;
+      if ((next - u).norm() < 1e-14 * std::max(1.0, u.norm())) break;
+      moved = (next - u).norm();
       u = next;
       g = g_next;
     }
+    kinks += jumps >= kJumps ? 1 : 0;
     return std::nullopt;
   }
 
   int calls = 0;
+  int kinks = 0;  ///< searches that ended without a point, where the slope jumps
 
  private:
   VectorXd gradient(const VectorXd& u) {
@@ -153,6 +166,14 @@ void look_for_further_points(Search& search, Index n, const FormOptions& options
   }
 }
 
+std::string not_converged(const Search& search, int starts) {
+  if (search.kinks == 0) return fmt::format("FORM found no point of the limit from {} starts", starts);
+  return fmt::format(
+      "FORM does not converge: {} of {} searches end at a kink of the limit state, where its slope jumps; subset simulation "
+      "needs no slope",
+      search.kinks, starts);
+}
+
 }  // namespace
 
 FormResult form(const LimitState& g, Index n, const FormOptions& options) {
@@ -167,7 +188,7 @@ FormResult form(const LimitState& g, Index n, const FormOptions& options) {
   }
   const auto nearer = [](const DesignPoint& a, const DesignPoint& b) { return a.u.norm() < b.u.norm(); };
   if (result.points.empty()) {
-    result.status = {false, fmt::format("FORM found no point of the limit from {} starts", options.starts + 1)};
+    result.status = {false, not_converged(search, options.starts + 1)};
   } else {
     std::sort(result.points.begin(), result.points.end(), nearer);
     look_for_further_points(search, n, options, result);

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <utility>
 #include <vector>
 
 #include "core/distributions.hpp"
@@ -44,6 +45,16 @@ class Chains {
     for (Index i = 0; i < n_; ++i) u[i] = normal_number(options_.seed, stream_, static_cast<std::uint64_t>(i));
     ++stream_;
     return u;
+  }
+
+  /// Random order: the step of the chains is adapted from chain to chain, and a step that depends on the value of the seed
+  /// would leave the conditional distribution.
+  void shuffle(std::vector<Index>& order) {
+    for (std::size_t i = order.size(); i > 1; --i) {
+      const double share = uniform_number(options_.seed, stream_, i);
+      std::swap(order[i - 1], order[static_cast<std::size_t>(share * static_cast<double>(i))]);
+    }
+    ++stream_;
   }
 
   Level first() {
@@ -140,6 +151,8 @@ SubsetResult subset_simulation(const LimitState& g, Index n, const SubsetOptions
       variation += squared_variation(level, limit, share);
     }
     const Index seeds = limit > 0.0 ? kept : inside;
+    order.resize(static_cast<std::size_t>(seeds));
+    chains.shuffle(order);
     MatrixXd u(n, seeds);
     VectorXd values(seeds);
     for (Index i = 0; i < seeds; ++i) {
@@ -168,10 +181,24 @@ SubsetResult subset_simulation(const LimitState& g, Index n, const SubsetOptions
   return result;
 }
 
-bool hidden_region(const SubsetResult& subset, const Eigen::Ref<const VectorXd>& design_point, double beta) {
-  constexpr double notable_share = 0.1;  ///< [-] of the estimate, from which a missed region matters
-  if (normal_tail(beta) < notable_share * subset.probability) return false;
-  return (subset.failed.transpose() * design_point).maxCoeff() < design_point.squaredNorm();
+bool hidden_region(const SubsetResult& subset, const LimitState& g, const Eigen::Ref<const VectorXd>& design_point,
+                   std::uint64_t seed) {
+  constexpr int points = 200;         ///< their scatter is 7 % of Phi(-beta) at most
+  constexpr double deviations = 3.0;  ///< of the logarithm, from which a region counts as missed
+  const double beta = design_point.norm(), half_space = normal_tail(beta);
+  const VectorXd along = design_point / beta;
+  int failed = 0;
+  for (std::uint64_t k = 0; k < points; ++k) {
+    VectorXd u(design_point.size());
+    for (Index i = 0; i < u.size(); ++i) u[i] = normal_number(seed, k, static_cast<std::uint64_t>(i));
+    const double beyond = -normal_quantile((1.0 - uniform_number(seed, points, k)) * half_space);
+    u += (beyond - along.dot(u)) * along;
+    failed += g(u) <= 0.0 ? 1 : 0;
+  }
+  if (failed == 0) return false;
+  const double share = static_cast<double>(failed) / points, square = (1.0 - share) / (share * points);
+  return std::log(half_space * share / subset.probability) >
+         deviations * std::sqrt(square + subset.variation * subset.variation);
 }
 
 }  // namespace twindeck::reliability

@@ -24,18 +24,21 @@ struct SubsetResult {
 };
 
 /// Subset simulation with adaptive conditional sampling: P(g <= 0) as a product of shares p0 of levels g <= b_1 > b_2 > ... >
-/// 0. Chains of a level move by u' = rho u + sqrt(1 - rho²) xi, whose deviation is adapted to an acceptance of 0.44. Known
-/// failures: the levels follow the values of g. Where g falls towards one failure region faster than towards a more probable
-/// one, all chains leave the latter, and neither the estimate nor its variation shows it. `form` from several starts shows a
-/// region that no sample is in; `hidden_region` compares the two. Variations below assume independent levels.
+/// 0. Chains of a level move by u' = rho u + sqrt(1 - rho²) xi, whose deviation is adapted to an acceptance of 0.44, seeds in
+/// random order. Known failures: the levels follow the values of g. Where g falls towards one failure region faster than
+/// towards a more probable one, all chains leave the latter, and neither the estimate nor its variation shows it. `form` from
+/// several starts shows a region that no sample is in; `hidden_region` compares the two. Variations below assume independent
+/// levels.
 /// @throws InputError  if all samples of the first level exceed the limit
 /// References: Au and Beck (2001), Prob. Eng. Mech. 16, 263-277; Papaioannou et al. (2015), Prob. Eng. Mech. 41, 89-103;
 /// Breitung (2019), Rel. Eng. Syst. Safety 182, 98-104 (failures).
 [[nodiscard]] SubsetResult subset_simulation(const LimitState& g, Eigen::Index n, const SubsetOptions& options = {});
 
-/// Whether a design point that holds a tenth or more of the estimate has none of the samples beyond its tangent plane.
-/// @param design_point  (n) u of FORM, beta its distance
-[[nodiscard]] bool hidden_region(const SubsetResult& subset, const Eigen::Ref<const Eigen::VectorXd>& design_point,
-                                 double beta);
+/// Whether a failure region that FORM found holds more than the estimate: P(g <= 0) beyond the tangent plane of its design
+/// point, Phi(-beta) times the share of 200 samples there that exceed the limit, lies three deviations of the logarithms above
+/// it.
+/// @param design_point  (n) u of FORM, outside the failure region of the origin
+[[nodiscard]] bool hidden_region(const SubsetResult& subset, const LimitState& g,
+                                 const Eigen::Ref<const Eigen::VectorXd>& design_point, std::uint64_t seed = 1);
 
 }  // namespace twindeck::reliability

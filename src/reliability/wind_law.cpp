@@ -68,34 +68,29 @@ std::optional<double> roughness_factor(const std::string& terrain, double height
   return 0.19 * std::pow(of.length_m / 0.05, 0.07) * std::log(std::max(height_m, of.least_height_m) / of.length_m);
 }
 
-void check_wind_law(const WindLaw& law) {
+void check_wind_law(const WindLaw& law, const std::string& file) {
   const auto positive = [](double value, const char* key) {
     if (!(value > 0.0) || !std::isfinite(value))
       throw InputError({"", 0, key}, fmt::format("is {}, expected a positive number", value), "");
   };
   switch (law.kind) {
     case WindLaw::Kind::weibull:
-      positive(law.scale_m_s, "scale_m_s");
-      positive(law.shape, "shape");
+      positive(law.scale_m_s, "wind_law.scale");
+      positive(law.shape, "wind_law.shape");
       return;
     case WindLaw::Kind::gumbel:
-      positive(law.gumbel_scale_m_s, "gumbel_scale_m_s");
+      positive(law.gumbel_scale_m_s, "wind_law.gumbel_scale");
       return;
     case WindLaw::Kind::code:
-      positive(law.basic_m_s, "basic_m_s");
+      positive(law.basic_m_s, "wind_law.basic_speed");
       positive(law.exposure, "exposure");
       return;
     case WindLaw::Kind::table:
       break;
   }
-  for (std::size_t i = 0; i < law.probability.size(); ++i) {
-    if (!(law.probability[i] >= 0.0))
-      throw InputError({"", 0, "probability"},
-                       fmt::format("is {} at {} m/s, expected zero or more", law.probability[i], law.speed_m_s[i]), "");
-  }
   const double sum = std::accumulate(law.probability.begin(), law.probability.end(), 0.0);
   if (std::abs(sum - 1.0) > kSumTolerance) {
-    throw InputError({"", 0, "probability"}, fmt::format("sums to {:.6g} over all classes, expected 1", sum),
+    throw InputError({file, 0, "probability"}, fmt::format("sums to {:.6g} over all classes, expected 1", sum),
                      "give each class its share of the time; divide all by their sum");
   }
 }

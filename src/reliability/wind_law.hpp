@@ -31,7 +31,7 @@ struct WindLaw {
 [[nodiscard]] std::optional<double> roughness_factor(const std::string& terrain, double height_m);
 
 /// @throws InputError  with the key: a scale that is not positive, a table whose probabilities do not sum to one (within 1e-3)
-/// or are negative
-void check_wind_law(const WindLaw& law);
+/// @param file  of the table, for the message
+void check_wind_law(const WindLaw& law, const std::string& file = "");
 
 }  // namespace twindeck::reliability

@@ -40,23 +40,15 @@ table("supports.csv", "support,node,x,y,z,rx,ry,rz",
 table("masses.csv", "group,node,mass_kg", masses)
 # Names that begin with M are monitoring points: step 8 writes their accelerations.
 table("points.csv", "point,node", [("M1", PANELS + 1), ("M2", PANELS + 2), ("M3", PANELS // 2 + 1)])
-(folder / "model.toml").write_text(f"""title = "a footbridge, 45 m"
-
-[[parameter]]                # what may be wrong, and between which bounds
-name = "E_steel"
-target = "youngs_modulus"
-of = ["steel"]
-unit = "Pa"
-initial = {modulus:g}
-lower = 195e9
-upper = 216e9
-
-[[parameter]]
-name = "m_surfacing"
-target = "point_mass"        # a factor on the masses of group "surfacing"
-of = ["surfacing"]
-unit = "-"
-initial = 1.0
-lower = 0.6
-upper = 1.5
-""")
+# What may be wrong, and between which bounds.
+parameters = [("E_steel", "youngs_modulus", "steel", "Pa", f"{modulus:g}", "195e9", "216e9"), ("m_surfacing", "point_mass", "surfacing", "-", "1.0", "0.6", "1.5")]
+(folder / "model.toml").write_text("\n".join(['title = "a footbridge, 45 m"\n\n# What may be wrong, and between which bounds; a point mass has a factor on the masses of its group.', *(
+    f"""[[parameter]]
+name = "{name}"
+target = "{target}"
+of = ["{of}"]
+unit = "{unit}"
+initial = {initial}
+lower = {lower}
+upper = {upper}
+""" for name, target, of, unit, initial, lower, upper in parameters)]))

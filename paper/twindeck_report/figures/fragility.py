@@ -10,10 +10,11 @@ from .style import ACCENT, GOOD, INK, PALE, WARN, plt
 NAME = "fragility"
 CAPTION = ("Probability that an acceleration exceeds the comfort limit of step 8 within ten minutes, and that the bridge is unstable, given the mean wind. Solid: in the first year; "
            "dashed: in the last year that was computed, with the loss of section of the assumed corrosion. Bands of the comfort curves: 5 to 95 % over the "
-           "random inputs of random.csv; the bar on each curve of instability: 5 to 95 % of the critical speed. Curves end where the bridge is unstable or nearly so. "
+           "random inputs of random.csv; a probability is the mean over them, so that it lies above its band where a few of them make all excursions. The bar on each curve of instability: 5 to 95 % of the critical speed. Curves end where the bridge is unstable or nearly so. "
            "All is conditional on the mean wind.")
 NEEDS = ("s10_reliability",)
 COLOURS = (INK, ACCENT, GOOD, WARN, "#5b3a8c")
+WIDEST, THINNER = 2.4, 0.6  # line widths: a curve below another one of nearly the same values still shows
 COMFORT = (("comfort_vertical", "vertical comfort"), ("comfort_lateral", "lateral comfort"))
 
 
@@ -44,7 +45,7 @@ def draw(study: Study):
     for axes, (state, title) in zip(panels, COMFORT):
         for (case, year), rows in fragility[fragility["limit_state"] == state].groupby(["case", "years"], sort=False):
             if year in years:
-                _curve(axes, rows, cases[case], year == years[0])
+                _curve(axes, rows, cases[case], year == years[0], WIDEST - list(cases).index(case) * THINNER)
         axes.set_title(title, loc="left")
     highest = max(fragility["speed_m_s"].max(), 1.0)
     drawn = [row for row in critical.to_dict("records") if row["model"] == model and row["years"] in years and not math.isnan(row["speed_m_s"])]
@@ -56,7 +57,7 @@ def draw(study: Study):
         panels[2].text(0.03, 0.93, "no followed mode loses its damping:\n" + "\n".join(stable), transform=panels[2].transAxes, fontsize=7, va="top", color="#5b6673")
     panels[2].set_title(f"instability, model {model}", loc="left")
     for axes in panels:
-        axes.set_xlim(0, reach)
+        axes.set_xlim(0, reach if axes is panels[2] else 1.05 * highest)
         axes.set_ylim(-0.02, 1.02)
         axes.set_xlabel("mean wind speed (m/s)")
     panels[0].set_ylabel("probability")
@@ -66,9 +67,9 @@ def draw(study: Study):
     return figure, fragility[fragility["years"].isin(years)].drop(columns="case")
 
 
-def _curve(axes, rows, colour, first):
+def _curve(axes, rows, colour, first, width):
     rows = rows.sort_values("speed_m_s")
-    axes.plot(rows["speed_m_s"], rows["probability"], color=colour, marker=".", linewidth=1.4, linestyle="-" if first else (0, (4, 3)), zorder=3)
+    axes.plot(rows["speed_m_s"], rows["probability"], color=colour, marker=".", linewidth=max(width, 1.0), linestyle="-" if first else (0, (4, 3)), zorder=3)
     if first:
         axes.fill_between(rows["speed_m_s"], rows["low"], rows["high"], color=colour, alpha=0.14, linewidth=0)
 

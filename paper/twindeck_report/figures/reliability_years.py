@@ -33,12 +33,12 @@ def draw(study: Study):
     spread = 0.012 * max(years["years"].max(), 1.0)
     for k, (place, rows) in enumerate(speeds.groupby("place", sort=False)):
         colour = WARN if k == 0 else plt.cm.Blues(0.35 + 0.1 * k)
-        x = rows["years"] + spread * (k - 2.5)
+        x = rows["years"] + spread * (k - (speeds["place"].nunique() - 1) / 2)
         middle.errorbar(x, rows["value"], [rows["value"] - rows["low"], rows["high"] - rows["value"]], color=colour, marker="o", markersize=3, capsize=2, linewidth=1.2, label=place)
     middle.set_xlabel("years in service")
     middle.set_ylabel("critical speed (m/s)")
     if len(speeds):
-        middle.legend(frameon=False, fontsize=7, loc="upper center", bbox_to_anchor=(0.5, -0.13), ncols=4, columnspacing=1.0, handlelength=1.2)
+        middle.legend(frameon=False, fontsize=7, loc="upper center", bbox_to_anchor=(0.5, -0.16), ncols=4, columnspacing=1.0, handlelength=1.2)
     middle.set_title("without dampers", loc="left")
     modes = years[years["quantity"] == "frequency"].pivot_table(index="place", columns="years", values="value", sort=False)
     change = 100.0 * (modes[modes.columns.max()] / modes[modes.columns.min()] - 1.0)

@@ -45,7 +45,7 @@ def draw(study: Study):
             bars.barh(i, 1e3 * row["located_loss_m"], fill=False, edgecolor=INK, height=0.72, linewidth=0.9)
         bars.annotate(f"year {row['years']:.0f}" if seen else "not seen", (bars.get_xlim()[1], i), fontsize=7, va="center", xytext=(1.02, i), textcoords=("axes fraction", "data"))
     bars.set_yticks(range(len(walls)), [_name(table[table["wall"] == wall]["section"]) for wall in walls["wall"]], fontsize=7)
-    bars.set_ylim(max(len(walls), 4) - 0.4, -0.6)
+    bars.set_ylim(max(len(walls), 2) - 0.4, -0.6)
     bars.set_xlabel("loss of one surface (mm)")
     plan.set_title("by corroding wall", loc="left")
     return figure, table

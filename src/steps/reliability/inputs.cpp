@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 
 #include "buffeting/bridge_in_wind.hpp"
 #include "core/error.hpp"
@@ -99,6 +100,7 @@ void read_wind_table(const StatedWindLaw& stated, double direction_deg, runner::
     const double apart = std::abs(std::remainder(table.number(row, "direction_deg") - direction_deg, 180.0));
     law.speed_m_s.push_back(apart <= 0.5 * stated.sector_deg ? table.number(row, "speed_m_s") : 0.0);
     law.probability.push_back(table.number(row, "probability"));
+    if (law.probability.back() < 0.0) table.fail(row, "probability", "is below zero", "give each class its share of the time");
   }
 }
 
@@ -119,20 +121,46 @@ std::optional<reliability::WindLaw> read_wind_law(const StatedWindLaw& stated, d
   law.label = law.kind == Kind::code ? "code" : "user";
   if (law.kind == Kind::code) law.exposure = *reliability::roughness_factor(stated.terrain, height_m);
   if (law.kind == Kind::table) read_wind_table(stated, direction_deg, context, law);
-  reliability::check_wind_law(law);
+  reliability::check_wind_law(law, law.kind == Kind::table ? stated.file : "");
   return law;
 }
 
-/// Refuses years without a first one, and walls and faults that the model cannot have, before anything is computed.
-void check_years_and_faults(const ReliabilityConfig& config, const std::vector<reliability::Wall>& walls,
-                            const fe::Model* model) {
-  if (config.years.empty() || config.years.front() != 0.0 || !std::is_sorted(config.years.begin(), config.years.end()))
+/// Refuses lists that say nothing or do not rise, and walls and faults that the model cannot have, before anything is computed.
+void check_lists(const ReliabilityConfig& config, const std::vector<reliability::Wall>& walls, const fe::Model* model) {
+  const auto rises = [](const std::vector<double>& list) {
+    return !list.empty() && std::adjacent_find(list.begin(), list.end(), std::greater_equal<>()) == list.end();
+  };
+  if (!rises(config.speed_m_s))
+    throw InputError({"", 0, "speeds"}, "are none, or do not rise from one to the next",
+                     "write speeds = [\"5 m/s\", \"10 m/s\"]");
+  if (!rises(config.years) || config.years.front() != 0.0)
     throw InputError({"", 0, "years"}, "do not begin with 0 and rise: all changes are told against the year 0",
                      "write years = [0, 25, 50]");
+  for (const StatedComfort& limit : config.comfort) {
+    if (limit.vertical_m_s2 == 0.0 && limit.lateral_m_s2 == 0.0)
+      throw InputError({"", 0, "comfort"}, "states no limit under '" + limit.name + "'", "give vertical or lateral, in m/s2");
+  }
+  for (const StatedWall& wall : config.walls) {
+    if (wall.sections.empty())
+      throw InputError({"", 0, "wall.sections"}, "are none", "name the sections of sections.csv that corrode");
+  }
   if (model == nullptr) return;
   static_cast<void>(reliability::worn_model(*model, walls, config.years.back()));
   for (const StatedFault& fault : config.faults)
     static_cast<void>(reliability::with_damper_fault(*model, fault.damper, reliability::DamperFault::lost, 0.0));
+}
+
+/// Factors, ratios and rates go in by their logarithms, one deviation to either side of the median.
+void check_positive(const reliability::RandomVector& random) {
+  const Eigen::VectorXd below = random.values(Eigen::VectorXd::Constant(random.dimension(), -1.0));
+  for (std::size_t i = 0; i < random.inputs().size(); ++i) {
+    const reliability::RandomInput& input = random.inputs()[i];
+    const double value = below[static_cast<Eigen::Index>(i)];
+    if (!input.name.starts_with(kParameter) && input.deviation > 0.0 && !(value > 0.0))
+      throw InputError({"", 0, input.name},
+                       fmt::format("is {:.3g} one deviation below its median, expected a positive number", value),
+                       "give law = \"lognormal\", or bounded = true with a positive low");
+  }
 }
 
 /// All random inputs: step 6's, then the step's own, then those that the configuration states.
@@ -163,20 +191,26 @@ Inputs random_inputs(const ReliabilityConfig& config, double structural_damping,
                                     reliability::kCorrosion};
   const auto own_inputs = static_cast<std::ptrdiff_t>(known.size());
   for (const fe::Parameter& parameter : of_model) known.push_back(kParameter + parameter.name);
-  for (const reliability::RandomInput& input : inputs) {
+  for (reliability::RandomInput& input : inputs) {
     const auto at = std::find(known.begin(), known.end(), input.name);
     if (at == known.end())
       throw InputError({"", 0, "random"},
                        "names '" + input.name + "', which is no random input" + did_you_mean(input.name, known),
                        "write \"parameter:NAME\" with a parameter of model.toml, or structural_damping, aerodynamic_level, "
                        "damper_constants, turbulence_intensity, corrosion_rate");
-    if (at - known.begin() >= own_inputs) parameters.push_back(static_cast<int>(at - known.begin() - own_inputs));
+    if (at - known.begin() < own_inputs) continue;
+    parameters.push_back(static_cast<int>(at - known.begin() - own_inputs));
+    if (input.low || input.high) continue;  // stated without ends: those of the model
+    input.low = of_model[static_cast<std::size_t>(parameters.back())].lower;
+    input.high = of_model[static_cast<std::size_t>(parameters.back())].upper;
   }
   const auto n = static_cast<Eigen::Index>(inputs.size());
   Eigen::MatrixXd correlation = Eigen::MatrixXd::Identity(n, n);
   if (posterior.correlation.size() > 0)
     correlation.topLeftCorner(posterior.correlation.rows(), posterior.correlation.cols()) = posterior.correlation;
-  return {reliability::RandomVector(inputs, correlation), parameters};
+  Inputs out{reliability::RandomVector(inputs, correlation), parameters};
+  check_positive(out.random);
+  return out;
 }
 
 }  // namespace
@@ -204,7 +238,7 @@ ReliabilityInputs read_reliability_inputs(const ReliabilityConfig& config, runne
   static_cast<void>(aero::aero_nodes_of(aerodynamics, model.fe_model(), model.source));
 
   std::vector<reliability::Wall> walls = walls_of(config);
-  check_years_and_faults(config, walls, model.fe_model());
+  check_lists(config, walls, model.fe_model());
   std::optional<reliability::WindLaw> law =
       read_wind_law(config.wind_law, aerodynamics.direction_deg, validation.height_m, context);
 

@@ -221,7 +221,7 @@ void add_rare(const FragilityRow& row, const reliability::UncertainMoments& mome
                         points.strong_maximum ? "" : "a further point of like importance is not ruled out"});
   found.rare.push_back({row.limit_state, row.model, row.of, row.speed_m_s, "subset", subset.probability, std::nullopt,
                         subset.variation, subset.calls,
-                        reliability::hidden_region(subset, nearest.u, nearest.beta) ? "misses FORM's region" : ""});
+                        reliability::hidden_region(subset, g, nearest.u, seed) ? "below what FORM's region holds" : ""});
 }
 
 void add_limit_states(const ReliabilityConfig& config, const Structure& s, double speed,

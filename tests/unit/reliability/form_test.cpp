@@ -5,7 +5,6 @@
 
 #include "core/distributions.hpp"
 #include "published_problems.hpp"
-#include "reliability/random_inputs.hpp"
 
 namespace twindeck::reliability {
 namespace {
@@ -30,22 +29,8 @@ TEST(Form, LinearLimitStatesAreExactInAnyDimension) {
 }
 
 TEST(Form, FindsTheBeamUnderAxialLoad) {
-  // R lognormal (3 MPa, 0.3 MPa), F normal (750 N, 50 N), diameter 20 mm: P(R < 4 F/(pi d²)) = 0.029198 exactly; FORM's
-  // linearisation is within 3 %.
-  RandomInput strength, force;
-  strength.name = "R";
-  strength.kind = LawKind::lognormal;
-  strength.mean = 3e6;
-  strength.deviation = 3e5;
-  force.name = "F";
-  force.mean = 750.0;
-  force.deviation = 50.0;
-  const RandomVector inputs({strength, force});
-  const auto g = [&](const Eigen::VectorXd& u) {
-    const Eigen::VectorXd x = inputs.values(u);
-    return x[0] - x[1] / (std::numbers::pi * 1e-4);
-  };
-  const FormResult found = form(g, 2);
+  // FORM's linearisation is within 3 %; subset simulation has the value itself.
+  const FormResult found = form(published::axial_beam(), 2);
   ASSERT_TRUE(found.status.converged);
   EXPECT_NEAR(found.probability / 0.029198, 1.0, 0.03);
   EXPECT_TRUE(found.strong_maximum);
@@ -73,10 +58,18 @@ TEST(Form, CountsTheOriginBeyondTheLimitAsNegative) {
   EXPECT_NEAR(found.probability, normal_tail(-2.0), 1e-9);
 }
 
+TEST(Form, SaysThatAKinkOfTheLimitStateStopsIt) {
+  // The nearest point of problem 25 lies where its two branches cross: no slope there points to the origin.
+  const FormResult found = form(published::rp25, 2);
+  ASSERT_FALSE(found.status.converged);
+  EXPECT_NE(found.status.message.find("kink"), std::string::npos) << found.status.message;
+  EXPECT_NE(found.status.message.find("subset simulation"), std::string::npos) << found.status.message;
+}
+
 TEST(Form, SaysThatALimitIsNeverExceeded) {
   const FormResult found = form([](const Eigen::VectorXd& u) { return 1.0 + u.squaredNorm(); }, 3);
   EXPECT_FALSE(found.status.converged);
-  EXPECT_FALSE(found.status.message.empty());
+  EXPECT_NE(found.status.message.find("found no point of the limit"), std::string::npos) << found.status.message;
 }
 
 }  // namespace

@@ -37,6 +37,22 @@ TEST(SubsetSimulation, MeetsThePublishedProbabilities) {
   meets(published::rp22, 2, 4.2073e-3);
   meets(published::rp31, 2, 3.2267e-3);
   meets(published::rp25, 2, 4.1486e-5);
+  meets(published::linear(5.0), 10, 2.8665e-7);  // problem 107
+  meets(published::axial_beam(), 2, 0.029198);
+}
+
+TEST(SubsetSimulation, IsRightInTheMean) {
+  // Forty runs of 8000 samples have 0.09/sqrt(40) = 1.4 % of scatter. Chains whose step depends on the value of their seed are
+  // 7 % too high at any number of samples.
+  double sum = 0.0;
+  constexpr int runs = 40;
+  for (int run = 0; run < runs; ++run) {
+    SubsetOptions options;
+    options.samples = 8000;
+    options.seed = static_cast<std::uint64_t>(7919 * (run + 1));
+    sum += subset_simulation(published::linear(3.5), 2, options).probability;
+  }
+  EXPECT_NEAR(sum / runs / normal_tail(3.5), 1.0, 0.045);
 }
 
 TEST(SubsetSimulation, DoesNotDependOnTheDimension) {
@@ -63,25 +79,36 @@ TEST(SubsetSimulation, FindsFirstExcursionsOfAnOscillator) {
     }
     return top;
   };
-  for (const auto& [level, probability] : {std::pair{1.2, 0.1802}, {1.6, 8.33e-3}, {2.0, 1.24e-4}}) {
+  for (const auto& [level, probability] :
+       {std::pair{1.2, 0.1802}, {1.4, 0.0454}, {1.6, 8.33e-3}, {1.8, 1.15e-3}, {2.0, 1.24e-4}}) {
     meets([&](const Eigen::VectorXd& u) { return level - largest(u); }, steps, probability, 1000);
   }
 }
 
 TEST(SubsetSimulation, FormShowsTheRegionThatItMisses) {
-  SubsetOptions options;
-  options.samples = 1000;
-  const SubsetResult subset = subset_simulation(published::hidden_region, 2, options);
+  // In 100 runs of 1000 samples, 44 miss the more probable region or find it with few chains, and are warned of. The others lie
+  // between a third of 3.2e-5 and eight times as much, more than their stated variation of 0.4 says.
   const FormResult points = form(published::hidden_region, 2);
-  ASSERT_TRUE(subset.status.converged && points.status.converged);
-  const bool right = std::abs(subset.probability / 3.2e-5 - 1.0) < 0.5;
-  EXPECT_TRUE(right || hidden_region(subset, points.points.front().u, points.points.front().beta)) << subset.probability;
+  ASSERT_TRUE(points.status.converged);
+  int warned = 0;
+  for (std::uint64_t seed = 1; seed <= 20; ++seed) {
+    SubsetOptions options;
+    options.samples = 1000;
+    options.seed = seed;
+    const SubsetResult subset = subset_simulation(published::hidden_region, 2, options);
+    const bool hidden = hidden_region(subset, published::hidden_region, points.points.front().u, seed);
+    warned += hidden ? 1 : 0;
+    EXPECT_TRUE(hidden || subset.probability > 0.3 * 3.2e-5) << subset.probability;
+  }
+  EXPECT_GE(warned, 3);
 }
 
 TEST(SubsetSimulation, AFoundRegionIsNotHidden) {
-  const SubsetResult subset = subset_simulation(published::resistance_less_load, 2);
-  const FormResult points = form(published::resistance_less_load, 2);
-  EXPECT_FALSE(hidden_region(subset, points.points.front().u, points.points.front().beta));
+  for (const published::Problem& problem : published::all()) {
+    const FormResult points = form(problem.g, problem.n);
+    if (!points.status.converged) continue;  // problem 25
+    EXPECT_FALSE(hidden_region(subset_simulation(problem.g, problem.n), problem.g, points.points.front().u)) << problem.name;
+  }
 }
 
 TEST(SubsetSimulation, SaysThatALimitIsAlwaysOrNeverExceeded) {
