@@ -14,7 +14,7 @@ namespace twindeck::aero_io {
 namespace {
 
 constexpr double kVarianceTolerance = 0.05;  ///< [-] of a spectrum's integral: sigma is then off by 2.5 % at most
-constexpr double kLastCoherence = 0.01;      ///< [-] largest in the last row: beyond it the coherence is 0
+constexpr double kLastCoherence = 0.01;      ///< [-] largest in the last row: one interval further the coherence is 0
 constexpr double kCoherenceAtZero = 1e-9;    ///< [-] how closely the first row has to be 1
 
 /// The rows of one component, in the order of the file.
@@ -49,8 +49,8 @@ std::array<Curve, 3> read_curves(const io::CsvTable& table, const std::filesyste
     const bool is_wanted = std::find(wanted.begin(), wanted.end(), c) != wanted.end();
     if (rows < 2 && (is_wanted || rows > 0))
       throw InputError({file.string(), 0, "component"},
-                       fmt::format("has {} rows of {}, expected at least two", rows, wind::paper_letter(c)),
-                       "give the rows of the component");
+                       fmt::format("has too few rows of {} ({}), expected at least two", wind::paper_letter(c), rows),
+                       fmt::format("add rows with component = {}", wind::paper_letter(c)));
   }
   return curves;
 }
@@ -73,10 +73,11 @@ std::array<std::shared_ptr<const wind::SpectrumTable>, 3> read_spectra(const std
     if (curve.rows.empty()) continue;
     auto spectrum = std::make_shared<const wind::SpectrumTable>(curve.x, curve.y);
     if (const double sum = spectrum->variance(); !(std::abs(sum - 1.0) <= kVarianceTolerance))
-      throw InputError({file.string(), 0, value},
-                       fmt::format("of {} integrates to {:.4g} of the variance, expected 1 within {}", wind::paper_letter(c),
-                                   sum, kVarianceTolerance),
-                       "divide f S by the variance of the same record, and give n = f L / V with the length scale of the set");
+      throw InputError(
+          {file.string(), 0, value},
+          fmt::format("of {} integrates to {:.4g} of the variance, expected 1 within {}", wind::paper_letter(c), sum,
+                      kVarianceTolerance),
+          "divide f S, one-sided in Hz, by the variance of the same record; give rows until f S is small at both ends");
     out[static_cast<std::size_t>(c)] = std::move(spectrum);
   }
   return out;
@@ -101,12 +102,15 @@ std::array<std::shared_ptr<const wind::CoherenceTable>, 3> read_coherences(const
     const Eigen::Index last = curve.y.size() - 1;
     if (std::abs(curve.y[last]) > kLastCoherence)
       table.fail(curve.rows.back(), value,
-                 fmt::format("is {} in the last row of {}, expected at most {}: it is 0 beyond", curve.y[last],
-                             wind::paper_letter(c), kLastCoherence),
+                 fmt::format("is {} in the last row of {}, expected at most {}: it ends at 0 one interval further",
+                             curve.y[last], wind::paper_letter(c), kLastCoherence),
                  "go on to where the coherence has died out");
-    Eigen::VectorXd gamma = curve.y;
+    // A jump to 0 would make it none: it ends one interval further.
+    Eigen::VectorXd x(last + 2), gamma(last + 2);
+    x << curve.x, 2.0 * curve.x[last] - curve.x[last - 1];
+    gamma << curve.y, 0.0;
     gamma[0] = 1.0;
-    out[static_cast<std::size_t>(c)] = std::make_shared<const wind::CoherenceTable>(curve.x, std::move(gamma));
+    out[static_cast<std::size_t>(c)] = std::make_shared<const wind::CoherenceTable>(std::move(x), std::move(gamma));
   }
   return out;
 }

@@ -15,9 +15,8 @@ class Gusts {
   /// @param step_s  of the samples @throws InputError  as wind::Simulator
   Gusts(const BridgeInWind& bridge, const wind::TurbulenceSet& set, const WindEventSettings& config, double speed_m_s,
         double step_s);
-  /// @return [m/s] (n_steps × n_components n_strips) in the order of the load's columns. Where the frequencies are
-  /// double-indexed,
-  ///         so that a sample does not repeat after the record, the steps of the run-up come first
+  /// @return [m/s] (n_steps × n_components n_strips) in the order of the load's columns. With double-indexed frequencies a
+  /// sample does not repeat after the record: the steps of the run-up come first
   [[nodiscard]] Eigen::MatrixXd sample(std::uint64_t seed) const;
   /// One a component. Their samples are those of `sample`.
   [[nodiscard]] const std::vector<wind::Simulator>& simulators() const { return simulators_; }

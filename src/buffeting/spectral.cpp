@@ -122,8 +122,6 @@ MatrixXd response_spectra(const aero::AeroelasticSystem& system, double speed_m_
                           const std::vector<wind::FieldDefinition>& fields, const Eigen::Ref<const MatrixXd>& sensors,
                           const Eigen::Ref<const VectorXd>& f_Hz, const SpectralOptions& options) {
   const Index strips = fields.front().size();
-  for (const wind::FieldDefinition& field : fields)  // a table may be no coherence, and a variance then be negative
-    for (Index k = 0; field.coherence_table && k < f_Hz.size(); ++k) static_cast<void>(wind::coherence_factor(field, f_Hz[k]));
   MatrixXd spectra = MatrixXd::Zero(f_Hz.size(), sensors.rows());
   const bool is_frozen = options.frozen_omega > 0.0;
   const aero::AeroelasticSystem::Block frozen =
@@ -141,6 +139,8 @@ MatrixXd response_spectra(const aero::AeroelasticSystem& system, double speed_m_
     for (std::size_t c = 0; c < fields.size(); ++c) {
       const wind::FieldDefinition& field = fields[c];
       const Index first = static_cast<Index>(c) * strips;
+      // A table may be no coherence, and a variance then be negative.
+      if (field.coherence_table) static_cast<void>(wind::coherence_factor(field, f_Hz[k]));
       const MatrixXd split = scaled_transfer(transfer.middleCols(first, strips), turbulence_at_points(field, f_Hz[k]));
       const VectorXd square = linalg::product(split, wind::coherence(field, f_Hz[k])).cwiseProduct(split).rowwise().sum();
       spectra.row(k) += chi * (square.head(sensors.rows()) + square.tail(sensors.rows())).transpose();

@@ -261,8 +261,10 @@ class ByLaw {
     std::vector<Cause> changes;
     for (std::size_t c = 0; c < leader.members.size(); ++c)
       if (!is_model_error(leader.members[c])) changes.push_back(leader.causes[c]);
-    Fit with = fit_near(setting_.informed, changes, VectorXd((leader.refined() ? leader.with : search_.base).map.x.head(n)));
-    if (!leader.scored || !with.made()) {
+    Fit with;
+    if (leader.scored)
+      with = fit_near(setting_.informed, changes, VectorXd((leader.refined() ? leader.with : search_.base).map.x.head(n)));
+    if (!with.made()) {
       out_.verdict = Verdict::unknown;
       reason_ = "the best cause cannot be put into the model";
       return false;

@@ -36,8 +36,7 @@ struct SubsetResult {
 
 /// Whether a failure region that FORM found holds more than the estimate: P(g <= 0) beyond the tangent plane of its design
 /// point, Phi(-beta) times the share of 200 samples there that exceed the limit, lies three deviations of the logarithms above
-/// it.
-/// @param design_point  (n) u of FORM, outside the failure region of the origin
+/// it. It calls g 200 times. @param design_point  (n) u of FORM, not the origin, where g > 0
 [[nodiscard]] bool hidden_region(const SubsetResult& subset, const LimitState& g,
                                  const Eigen::Ref<const Eigen::VectorXd>& design_point, std::uint64_t seed = 1);
 

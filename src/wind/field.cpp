@@ -85,12 +85,14 @@ Eigen::MatrixXd coherence_factor(const FieldDefinition& field, double f_Hz) {
     if (leading.info() != Eigen::Success || !(leading.matrixLLT().diagonal().array().square().minCoeff() > least)) break;
     ++j;
   }
-  throw InputError({"", 0, "wind field"},
-                   fmt::format("has a coherence that is not positive definite at {} Hz (found at point {} of {})", f_Hz, j + 1,
-                               gamma.rows()),
-                   field.coherence_table
-                       ? "give a coherence that falls ever more slowly with the separation, as exp(-x) does"
-                       : "take away points that coincide, or give neighbouring points more alike mean speeds");
+  throw InputError(
+      {"", 0, "wind field"},
+      fmt::format("has a coherence that is not positive definite at {} Hz (found at point {} of {})", f_Hz, j + 1,
+                  gamma.rows()),
+      field.coherence_table
+          ? "take away points that coincide; let the coherence end at 0 and fall ever more slowly with the separation, as "
+            "exp(-x) does"
+          : "take away points that coincide, or give neighbouring points more alike mean speeds");
 }
 
 }  // namespace twindeck::wind

@@ -38,12 +38,11 @@ struct SimulationOptions {
 
 /// Deodatis' simulation of one component of the wind (paper Eq. 14-15), prepared once for any number of samples:
 ///
-///     v_j(t) = sum_m sum_l sqrt(2 df) |H_jm(f)| cos(2 pi f t + theta_jm + phi_ml),   m <= j,   l >= 1,   f of `Frequencies`,
+///     v_j(t) = sum_m sum_l sqrt(2 df) |H_jm(f)| cos(2 pi f t + theta_jm + phi_ml),   m <= j,   l >= 1,   l df < cutoff,
 ///
-/// with l df < cutoff;
-/// one-sided in Hz: Eq. (15) is two-sided in rad/s, S2(omega) = S1(f) / (4 pi). Phases phi_ml are pure functions of seed,
-/// component, m and l, so a sample does not depend on the number of threads. Reference: Deodatis (1996), J. Eng. Mech. 122,
-/// 778-787.
+/// with f of `Frequencies`. Spectra are one-sided in Hz; Eq. (15) is two-sided in rad/s, S2(omega) = S1(f) / (4 pi). Phases
+/// phi_ml are pure functions of seed, component, m and l, so a sample does not depend on the number of threads. Reference:
+/// Deodatis (1996), J. Eng. Mech. 122, 778-787.
 class Simulator {
  public:
   /// @throws InputError  as `check` and `coherence_factor`; for a duration, rate or cutoff without any wave

@@ -11,12 +11,16 @@ ROOT = pathlib.Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(ROOT / "tests/bench"))
 import reliability  # noqa: E402
 
+VERSION = "1.20"  # Debian 12's
+
 
 class Peers(unittest.TestCase):
     def test_the_guide_tells_what_openturns_finds(self):
         peer = reliability.peer()
         if peer is None:
             self.skipTest("OpenTURNS is not here (apt-get install python3-openturns)")
+        if not peer.__version__.startswith(VERSION):
+            self.skipTest(f"another version draws other samples: the table is of OpenTURNS {VERSION}")
         text = (ROOT / "docs/reliability.md").read_text(encoding="utf-8").split(reliability.MARKS[0])[1].split(reliability.MARKS[1])[0]
         rows = [[cell.strip() for cell in line.strip("|").split("|")] for line in text.splitlines()[2:]]
         self.assertEqual({row[0] for row in rows}, set(reliability.PROBLEMS))

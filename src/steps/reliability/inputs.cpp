@@ -100,7 +100,8 @@ void read_wind_table(const StatedWindLaw& stated, double direction_deg, runner::
     const double apart = std::abs(std::remainder(table.number(row, "direction_deg") - direction_deg, 180.0));
     law.speed_m_s.push_back(apart <= 0.5 * stated.sector_deg ? table.number(row, "speed_m_s") : 0.0);
     law.probability.push_back(table.number(row, "probability"));
-    if (law.probability.back() < 0.0) table.fail(row, "probability", "is below zero", "give each class its share of the time");
+    if (const double p = law.probability.back(); p < 0.0)
+      table.fail(row, "probability", fmt::format("is {}, expected zero or more", p), "give each class its share of the time");
   }
 }
 
@@ -131,8 +132,7 @@ void check_lists(const ReliabilityConfig& config, const std::vector<reliability:
     return !list.empty() && std::adjacent_find(list.begin(), list.end(), std::greater_equal<>()) == list.end();
   };
   if (!rises(config.speed_m_s))
-    throw InputError({"", 0, "speeds"}, "are none, or do not rise from one to the next",
-                     "write speeds = [\"5 m/s\", \"10 m/s\"]");
+    throw InputError({"", 0, "speeds"}, "is empty or does not rise", "write speeds = [\"5 m/s\", \"10 m/s\"]");
   if (!rises(config.years) || config.years.front() != 0.0)
     throw InputError({"", 0, "years"}, "do not begin with 0 and rise: all changes are told against the year 0",
                      "write years = [0, 25, 50]");
@@ -200,7 +200,8 @@ Inputs random_inputs(const ReliabilityConfig& config, double structural_damping,
                        "damper_constants, turbulence_intensity, corrosion_rate");
     if (at - known.begin() < own_inputs) continue;
     parameters.push_back(static_cast<int>(at - known.begin() - own_inputs));
-    if (input.low || input.high) continue;  // stated without ends: those of the model
+    if (input.low || input.high) continue;
+    // An input without ends takes those of the model.
     input.low = of_model[static_cast<std::size_t>(parameters.back())].lower;
     input.high = of_model[static_cast<std::size_t>(parameters.back())].upper;
   }

@@ -19,7 +19,7 @@ std::optional<io::FieldTable::Broken> file_without_law(const std::string& key, c
   return io::FieldTable::Broken{key + "_file", "is given, and the " + key + " is " + law, "write " + key + " = \"table\""};
 }
 
-/// Three decays of a component, and only where a law reads them.
+/// Three decays of a component, and not with davenport, which has one for all.
 std::optional<io::FieldTable::Broken> wrong_decays(const std::string& letter, const std::vector<double>& decay,
                                                    const std::string& law) {
   if (decay.empty() || (decay.size() == 3 && law != "davenport")) return std::nullopt;
@@ -44,13 +44,14 @@ void add_turbulence(io::FieldTable& t, ValidationConfig& c) {
       .text("coherence_file", c.coherence_file, "table: file with component (v, u, w), reduced_separation (x), coherence")
       .number("davenport_decay", c.davenport_decay, "", io::positive(), "davenport: the decay; Davenport (1961) found about 7")
       .numbers("decay_v", c.decay_v, "", io::positive(),
-               "decays C of v' with separations along the wind, across it and vertical; empty: the set's. All 1: x is f d / V")
+               "decays C of v' with separations along the wind, across it and vertical; empty: the set's. With decays of 1, x "
+               "is f d / V")
       .numbers("decay_u", c.decay_u, "", io::positive(), "the same of u', across the wind")
       .numbers("decay_w", c.decay_w, "", io::positive(), "the same of w', vertical")
       .boolean("across", c.across, "gusts u' across the wind load the decks too: they turn the wind in plan")
       .choice("frequencies", c.frequencies, {"single", "double_indexed"},
-              "of the waves: the same for all streams, which repeat after the record's length; or Deodatis' own, which are "
-              "ergodic over the record's length times the number of points (about ten times the time)")
+              "frequencies of the waves. single: all points share them, and a sample repeats after the record's length. "
+              "double_indexed: Deodatis' own (1996), and a sample repeats after the record's length times the number of points")
       .rule([&c] { return file_without_law("spectrum", c.spectrum, c.spectrum_file); })
       .rule([&c] { return file_without_law("coherence", c.coherence, c.coherence_file); })
       .rule([&c] { return wrong_decays("v", c.decay_v, c.coherence); })
@@ -59,7 +60,7 @@ void add_turbulence(io::FieldTable& t, ValidationConfig& c) {
       .rule([&c]() -> std::optional<io::FieldTable::Broken> {
         if (c.repeats() || c.anchors > 0) return std::nullopt;
         return io::FieldTable::Broken{"anchors",
-                                      "is 0, and double-indexed frequencies are too many to factorise the coherence at each",
+                                      "is 0: at all double-indexed frequencies the coherence would be factorised too often",
                                       "give at least 2; 40 is the default"};
       });
 }
