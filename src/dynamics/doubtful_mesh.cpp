@@ -142,8 +142,7 @@ std::string thick_shells(const fe::Model& model) {
   if (thickest == nullptr || !(box.sizes().maxCoeff() < thick * thickness(*thickest))) return "";
   return fmt::format(
       "shells of group '{}' are {:.3g} m thick and all shells together {:.4g} m wide: shells are thin plates here, and the "
-      "shear "
-      "that they leave out lowers frequencies by more than 1 %; model a plate as thick as that by solids",
+      "shear that they leave out lowers frequencies by more than 1 %; model a plate as thick as that by solids",
       thickest->group, thickness(*thickest), box.sizes().maxCoeff());
 }
 

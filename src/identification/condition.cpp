@@ -186,7 +186,7 @@ std::string limit_band(SetupResult& setup) {
       : peak > 0.0
           ? fmt::format(
                 "the Nyquist frequency, because the spectrum has a peak at {:.4g} Hz above 0.8 of it; a mode there may "
-                "be the alias of one above the Nyquist frequency, which a faster record tells",
+                "be the alias of one above the Nyquist frequency; a record with a higher sampling rate shows which",
                 peak)
           : "0.8 of the Nyquist frequency";
   return fmt::format("setup {}: modes are looked for up to {:.4g} Hz, {}; band.highest sets another limit",

@@ -114,15 +114,16 @@ void attach_inp_equations(InpParts& parts) {
 
 void attach_inp_rigid_body(InpParts& parts, const InpCard& card) {
   card.allow({"REF NODE", "ROT NODE", "NSET", "TIE NSET", "ELSET"});
-  const std::string slaves = card.has("TIE NSET") ? card.get("TIE NSET") : card.has("ELSET") ? "" : card.required("NSET");
+  if (!card.has("TIE NSET") && !card.has("ELSET")) (void)card.required("NSET");
   const int master = parts.reference_node(card);
   std::set<long> body;
-  if (slaves.empty())
+  if (card.has("ELSET"))
     for (const long id : parts.set(parts.element_sets, card, card.get("ELSET")).members)
       if (const auto element = parts.elements.find(id); element != parts.elements.end())
         body.insert(element->second.nodes.begin(), element->second.nodes.end());
-  if (!slaves.empty()) {
-    const auto& members = parts.set(parts.node_sets, card, slaves).members;
+  for (const char* nodes : {"NSET", "TIE NSET"}) {
+    if (!card.has(nodes)) continue;
+    const auto& members = parts.set(parts.node_sets, card, card.get(nodes)).members;
     body.insert(members.begin(), members.end());
   }
   for (const long id : body) {

@@ -110,8 +110,16 @@ class InpStageReader {
     const double size = line.number_or(2, 0.0);
     for (const long id : parts_.nodes_of(line, 0)) {
       const auto [node, first] = parts_.moved_by(id);
+      refuse_beyond_rotations(line, first, dof);
       stage_.load(stage_.node(line, node), first + dof, size);
     }
+  }
+
+  /// A ROT NODE, whose displacements are rotations of a body, has three degrees of freedom. @param first of moved_by
+  static void refuse_beyond_rotations(const InpLine& line, int first, int dof) {
+    if (first != 0 && dof > 2)
+      line.fail(fmt::format("uses degree of freedom {} of a ROT NODE, which has 1 to 3", dof + 1),
+                "write 1 to 3: they are the rotations of the body");
   }
 
   void read_movement(const InpLine& line) {
@@ -121,7 +129,8 @@ class InpStageReader {
     if (size != 0.0) parts_.refuse_turned(line);
     for (const long id : parts_.nodes_of(line, 0)) {
       const auto [node, from] = parts_.moved_by(id);
-      for (int dof = first; dof <= last; ++dof) stage_.move(line, stage_.node(line, node), from + dof, size);
+      if (size != 0.0) refuse_beyond_rotations(line, from, last);
+      for (int dof = first; dof <= last && from + dof < 6; ++dof) stage_.move(line, stage_.node(line, node), from + dof, size);
     }
   }
 

@@ -56,7 +56,7 @@ std::vector<long> nodes_of(const std::vector<NodalResult>& modes, const Universa
              "export all modes at the same nodes");
     const Index per_node = mode.values.begin()->second.size();
     if (per_node < kTranslations)
-      refuse(file, fmt::format("has mode {} with {} value a node, expected three or six", mode.mode, per_node),
+      refuse(file, fmt::format("has mode {} with {} values a node, expected three or six", mode.mode, per_node),
              "export mode shapes as displacements of three directions");
   }
   for (const long node : nodes) {
@@ -70,13 +70,29 @@ std::vector<long> nodes_of(const std::vector<NodalResult>& modes, const Universa
   return nodes;
 }
 
-/// Whether any mode moves there by more than its digits tell.
-bool is_measured(const std::vector<NodalResult>& modes, long node, Index axis) {
-  return std::any_of(modes.begin(), modes.end(), [&](const NodalResult& mode) {
+/// A translation of a node.
+struct Motion {
+  long node = 0;
+  Index axis = 0;
+};
+
+/// Those by which any mode moves by more than its digits tell.
+std::vector<Motion> measured_motions(const std::vector<NodalResult>& modes, const std::vector<long>& nodes) {
+  std::vector<double> least;  // of each mode
+  for (const NodalResult& mode : modes) {
     double largest = 0.0;
-    for (const auto& [at, values] : mode.values) largest = std::max(largest, values.head(kTranslations).cwiseAbs().maxCoeff());
-    return std::abs(mode.values.at(node)[axis]) > kStill * largest;
-  });
+    for (const auto& [node, values] : mode.values)
+      largest = std::max(largest, values.head(kTranslations).cwiseAbs().maxCoeff());
+    least.push_back(kStill * largest);
+  }
+  std::vector<Motion> motions;
+  for (const long node : nodes)
+    for (Index axis = 0; axis < kTranslations; ++axis) {
+      bool moves = false;
+      for (std::size_t m = 0; m < modes.size() && !moves; ++m) moves = std::abs(modes[m].values.at(node)[axis]) > least[m];
+      if (moves) motions.push_back({node, axis});
+    }
+  return motions;
 }
 
 /// The numbers of the file where they are numbers of modes, else 1, 2, …
@@ -113,20 +129,18 @@ UniversalModes read_universal_modes(const fs::path& file, double std_pct) {
   }
   set.frequency_std_Hz =
       std_pct > 0.0 ? Eigen::VectorXd(std_pct / 100.0 * set.frequency_Hz) : Eigen::VectorXd::Constant(n, matching::kUnknown);
-  for (const long node : nodes_of(modes, data, file)) {
-    for (Index axis = 0; axis < kTranslations; ++axis) {
-      if (!is_measured(modes, node, axis)) continue;
-      matching::Channel channel;
-      channel.point = std::to_string(node);
-      channel.name = channel.point + "_" + kAxes[static_cast<std::size_t>(axis)];
-      channel.x_m = data.nodes.at(node);
-      channel.direction = Eigen::Vector3d::Unit(axis);
-      set.dofs.push_back({channel.point, channel.name});
-      set.shapes.conservativeResize(std::ssize(set.dofs), n);
-      for (Index m = 0; m < n; ++m)
-        set.shapes(std::ssize(set.dofs) - 1, m) = modes[static_cast<std::size_t>(m)].values.at(node)[axis];
-      read.channels.push_back(channel);
-    }
+  const std::vector<Motion> motions = measured_motions(modes, nodes_of(modes, data, file));
+  set.shapes.resize(std::ssize(motions), n);
+  for (const auto& [node, axis] : motions) {
+    matching::Channel channel;
+    channel.point = std::to_string(node);
+    channel.name = channel.point + "_" + kAxes[static_cast<std::size_t>(axis)];
+    channel.x_m = data.nodes.at(node);
+    channel.direction = Eigen::Vector3d::Unit(axis);
+    for (Index m = 0; m < n; ++m)
+      set.shapes(std::ssize(read.channels), m) = modes[static_cast<std::size_t>(m)].values.at(node)[axis];
+    set.dofs.push_back({channel.point, channel.name});
+    read.channels.push_back(channel);
   }
   if (read.channels.empty()) refuse(file, "has shapes that are zero everywhere", "export the mode shapes again");
   return read;

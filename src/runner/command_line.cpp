@@ -93,7 +93,7 @@ void add_common_options(CLI::App& app, CommandLine& line, Words& words) {
   app.add_option("--campaign", words.campaign, "campaign folder (raw records) to use instead of the study's")->type_name("DIR");
   app.add_option("--modes", words.modes,
                  "folder with measured modes.csv to use instead of the study's; step 3: a universal file of modes")
-      ->type_name("DIR");
+      ->type_name("PATH");
   app.add_option("--features", words.features, "features folder to use instead of the study's")->type_name("DIR");
   app.add_option("--set", line.sets, "change a key of the configuration; --describe tells which there are")
       ->type_name("KEY=VALUE");

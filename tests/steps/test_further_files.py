@@ -1,5 +1,4 @@
-"""Forty further files as loggers and programs write them, of the kinds of the shared cases: time, tables, matrices, universal files. What
-`s3_identification --inspect` says of each.
+"""49 further files as loggers and programs write them: time, tables, matrices, universal files. What `s3_identification --inspect` says of each.
 
 Oracle: every file holds the same 6,000 samples of three channels at 50 Hz, of which the means are 11.5, 23 and 34.5 and the true rate is known; a file
 that cannot be read so is refused, with the words that say what it is.
@@ -77,7 +76,7 @@ TEXTS = {  # name: (text, words beside the means)
     "late stamps": (table([f"{t:.3f}" for t in jittered()]), ["49.99997 Hz +- 2.5e-05 Hz"]),
     "packets of 25": (table([f"{T[25 * (i // 25)]:.2f}" for i in range(N)]), ["50"]),
     "whole seconds": (table([f"{int(t)}" for t in T], header="timestamp,A,B,C"), ["50"]),
-    "three digits of a third": (table([f"{t:.1f}" for t in T]), ["50"]),
+    "one digit": (table([f"{t:.1f}" for t in T]), ["50"]),
     "decimal commas, semicolons": (table([f"{t:.2f}" for t in T], ";", ","), ["50 Hz", "decimal comma"]),
     "decimal commas, tabs": (table([f"{t:.2f}" for t in T], "\t", ","), ["50 Hz"]),
     "decimal commas, blanks": (table([f"{t:.2f}" for t in T], " ", ","), ["50 Hz"]),

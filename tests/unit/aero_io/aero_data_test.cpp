@@ -7,13 +7,13 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
-#include <fstream>
 #include <numbers>
 
 #include "aero/derivative_table.hpp"
 #include "aero/laws.hpp"
 #include "core/error.hpp"
 #include "test_places.hpp"
+#include "unit/records/scratch.hpp"
 
 namespace {
 
@@ -21,12 +21,7 @@ using namespace twindeck;
 
 class AeroFiles : public ::testing::Test {
  protected:
-  std::filesystem::path write(const std::string& text) {
-    const std::filesystem::path file = std::filesystem::temp_directory_path() / (std::string("aero_") + name() + ".csv");
-    std::ofstream(file) << text;
-    return file;
-  }
-  static std::string name() { return ::testing::UnitTest::GetInstance()->current_test_info()->name(); }
+  [[nodiscard]] std::filesystem::path write(const std::string& text) const { return scratch_.write("aero.csv", text); }
   void expect_refused(const std::filesystem::path& file, const std::string& words) {
     try {
       const auto table = aero_io::read_flutter_derivatives(file);
@@ -35,6 +30,7 @@ class AeroFiles : public ::testing::Test {
       EXPECT_NE(std::string(error.what()).find(words), std::string::npos) << error.what();
     }
   }
+  const records::Scratch scratch_;
   const std::string zasso = "h1,h2,h3,h4,h5,h6,p1,p2,p3,p4,p5,p6,a1,a2,a3,a4,a5,a6\n";
   const std::string ones = ",1,1,1,1,1,1,1,1,1,1,1,1,1,1,1,1,1,1\n";
 };

@@ -3,28 +3,27 @@
 
 #include <gtest/gtest.h>
 
-#include <filesystem>
-#include <fstream>
 #include <string>
 
 #include "core/error.hpp"
+#include "unit/records/scratch.hpp"
 
 namespace twindeck::aero_io {
 namespace {
 
 using wind::Component;
 
-std::filesystem::path turbulence_file(const std::string& text) {
-  const std::string name = ::testing::UnitTest::GetInstance()->current_test_info()->name();
-  const std::filesystem::path file = std::filesystem::temp_directory_path() / ("turbulence_" + name + ".csv");
-  std::ofstream(file) << text;
-  return file;
+/// What `read` makes of a file with that text.
+template <typename Read>
+auto read_text(const Read& read, const std::string& text) {
+  const records::Scratch scratch;
+  return read(scratch.write("turbulence.csv", text), {Component::along, Component::vertical});
 }
 
 template <typename Read>
 void expect_line(const Read& read, const std::string& text, const std::string& words) {
   try {
-    static_cast<void>(read(turbulence_file(text), {Component::along, Component::vertical}));
+    static_cast<void>(read_text(read, text));
     ADD_FAILURE() << "was read: " << text;
   } catch (const InputError& error) {
     EXPECT_NE(std::string(error.what()).find(words), std::string::npos) << error.what();
@@ -39,7 +38,7 @@ std::string flat(const std::string& letter) {
 
 TEST(TurbulenceTables, SpectraStandByTheirLetters) {
   const std::string head = "component,f_L_over_V,f_S_over_variance\n";
-  const auto found = read_spectra(turbulence_file(head + flat("w") + flat("v")), {Component::along, Component::vertical});
+  const auto found = read_text(read_spectra, head + flat("w") + flat("v"));
   ASSERT_TRUE(found[0] && found[2]);
   EXPECT_FALSE(found[1]);
   EXPECT_NEAR(found[2]->density(2.0), 0.2857143 / 2.0, 1e-12);
@@ -52,8 +51,7 @@ TEST(TurbulenceTables, SpectraStandByTheirLetters) {
 
 TEST(TurbulenceTables, CoherencesBeginWithOneAndDieOut) {
   const std::string head = "component,reduced_separation,coherence\n", whole = "w,0,1\nw,2,-0.1\nw,3,0\n";
-  const auto found =
-      read_coherences(turbulence_file(head + whole + "v,0,1\nv,4,0.005\n"), {Component::along, Component::vertical});
+  const auto found = read_text(read_coherences, head + whole + "v,0,1\nv,4,0.005\n");
   ASSERT_TRUE(found[0] && found[2]);
   EXPECT_NEAR(found[2]->at(1.0), 0.45, 1e-15);
   expect_line(read_coherences, head + whole + "v,0,1\nv,1,1.2\nv,4,0\n",

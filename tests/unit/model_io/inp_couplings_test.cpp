@@ -3,6 +3,7 @@
 
 #include <cmath>
 #include <numbers>
+#include <set>
 
 #include "model_io/inp.hpp"
 #include "nastran_deck.hpp"
@@ -53,6 +54,44 @@ TEST(InpCouplings, RigidBodyWithANodeOfItsRotations) {
   sprung.replace(sprung.find("1, 1\n*SPRING, ELSET=HINGE\n6"), 27, "1, 7\n*SPRING, ELSET=HINGE\n3");
   EXPECT_NE(refusal_of(sprung).find("ROT NODE 7 carries an element, spring or mass too"), std::string::npos)
       << refusal_of(sprung);
+}
+
+/// Its displacements are three rotations: a load or movement of a fourth to sixth is none.
+TEST(InpCouplings, ANodeOfRotationsHasThreeDegreesOfFreedom) {
+  const std::string body = "*NSET, NSET=BODY\n2\n*NODE\n7, 0, 0, 0\n*RIGID BODY, NSET=BODY, REF NODE=1, ROT NODE=7\n";
+  std::string deck = pendulum(body);
+  deck.replace(deck.find("1, 1, 5\n"), 8, "1, 1, 3\n7, 1, 2\n");
+  const auto loaded = [&](const std::string& load) {
+    return deck + "*STEP\n*STATIC\n" + load + "*END STEP\n*STEP, PERTURBATION\n*FREQUENCY\n1\n*END STEP\n";
+  };
+  const fe::Prestress::Load moment = deck_model(loaded("*CLOAD\n7, 3, 1.5\n")).model.prestress.loads.at(0);
+  EXPECT_EQ(moment.node, 0);
+  EXPECT_EQ(moment.direction, 5);
+  EXPECT_EQ(moment.value, 1.5);
+  for (const char* load : {"*CLOAD\n7, 4, 1.0\n", "*BOUNDARY\n7, 4, 4, 0.1\n"}) {
+    const std::string said = refusal_of(loaded(load));
+    EXPECT_NE(said.find("uses degree of freedom 4 of a ROT NODE, which has 1 to 3"), std::string::npos) << load << said;
+  }
+  EXPECT_TRUE(deck_model(loaded("*BOUNDARY\n7, 1, 6, 0.\n")).model.prestress.loads.empty());
+}
+
+/// The springs hold the reference node; every set that is given belongs to the body.
+TEST(InpCouplings, RigidBodyOfSeveralSets) {
+  const std::string head =
+      "*NODE\n1, 0, 0, 0\n2, 3, 0, 0\n3, 0, 3, 0\n4, 0, 0, 3\n*NSET, NSET=N\n2\n*NSET, NSET=T\n3\n"
+      "*ELEMENT, TYPE=MASS, ELSET=E\n4, 4\n*ELEMENT, TYPE=MASS, ELSET=M\n2, 2\n3, 3\n"
+      "*MASS, ELSET=E\n2.\n*MASS, ELSET=M\n2.\n*BOUNDARY\n1, 1, 3\n*ELEMENT, TYPE=SPRING1, ELSET=H\n5, 1\n"
+      "*SPRING, ELSET=H\n6\n450.\n";
+  const auto slaves = [&](const std::string& sets) {
+    std::set<long> ids;
+    const fe::Model model = deck_model(head + "*RIGID BODY, REF NODE=1" + sets + "\n").model;
+    for (const fe::RigidLink& link : model.links) ids.insert(model.nodes[static_cast<std::size_t>(link.slave)].id);
+    return ids;
+  };
+  EXPECT_EQ(slaves(", ELSET=E, TIE NSET=T"), (std::set<long>{3, 4}));
+  EXPECT_EQ(slaves(", ELSET=E, NSET=N"), (std::set<long>{2, 4}));
+  EXPECT_EQ(slaves(", NSET=N, TIE NSET=T"), (std::set<long>{2, 3}));
+  EXPECT_NE(refusal_of(head + "*RIGID BODY, REF NODE=1\n").find("NSET"), std::string::npos);
 }
 
 TEST(InpCouplings, KinematicInSomeDirectionsLeavesTheOthers) {

@@ -59,6 +59,19 @@ TEST(UniversalModes, RealModesAtNodesOfEitherSet) {
   }
 }
 
+/// The least that counts is a millionth of the largest component of the same mode, not of another's.
+TEST(UniversalModes, StillnessIsOfItsOwnMode) {
+  const Scratch scratch;
+  const auto file = scratch.write("m.unv", nodes_text(false) + mode_text(1, 2.0, 0.01, {1e6, 0.5, 0}) +
+                                               mode_text(2, 3.0, 0.01, {1e6, 0, 1e-8}) + mode_text(3, 4.0, 0.01, {0, 0, 1e-8}));
+  const UniversalModes read = read_universal_modes(file, 0.0);
+  std::vector<std::string> names;
+  for (const matching::Channel& channel : read.channels) names.push_back(channel.name);
+  // Node 2 moves along x by 0.25 in the third mode, of which 1e-8 at node 3 is too little; its 0.5 in the first is too.
+  EXPECT_EQ(names, (std::vector<std::string>{"1_z", "2_x"}));
+  EXPECT_TRUE(read.modes.shapes.real().isApprox((Eigen::MatrixXd(2, 3) << 1e6, 1e6, 0, 0.25, 0.25, 0.25).finished(), 1e-12));
+}
+
 TEST(UniversalModes, WhatIsWrittenIsReadBack) {
   const Scratch scratch;
   UniversalData data;
