@@ -42,7 +42,7 @@ TEST(TurbulenceTables, SpectraStandByTheirLetters) {
   ASSERT_TRUE(found[0] && found[2]);
   EXPECT_FALSE(found[1]);
   EXPECT_NEAR(found[2]->density(2.0), 0.2857143 / 2.0, 1e-12);
-  expect_line(read_spectra, head + flat("v"), "has 0 rows of w, expected at least two");
+  expect_line(read_spectra, head + flat("v"), "has too few rows of w (0), expected at least two");
   expect_line(read_spectra, head + flat("x"), "write v (along the wind), u (across it) or w (vertical)");
   expect_line(read_spectra, head + flat("w") + "v,2,0.3\nv,2,0.3\n", ":5: f_L_over_V: is 2 after 2");
   expect_line(read_spectra, head + flat("w") + "v,1,0.3\nv,2,0\n", ":5: f_S_over_variance: is 0, expected a positive number");
