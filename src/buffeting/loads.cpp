@@ -41,37 +41,31 @@ Eigen::Matrix<double, 6, 1> across_load(const aero::SectionAero& section, const 
 
 Eigen::MatrixXd strip_load(const aero::SectionAero& section, const aero::Strip& strip, const aero::YawRule& rule,
                            const aero::Wind& wind, double speed_m_s, aero::Equations equations,
-                           const std::vector<wind::Component>& components) {
+                           const std::vector<wind::Component>& components, const aero::StripMotion& at_strip) {
   const LoadFactor factor = buffeting_factor(section, strip, rule, wind.density_kg_m3, speed_m_s, equations);
-  const aero::Kinematics kinematics = aero::kinematics(strip, rule.axes, wind);
-  Eigen::MatrixXd load(6, std::ssize(components));
+  const Eigen::MatrixXd motion = aero::kinematics(strip, rule.axes, wind) * at_strip;
+  Eigen::MatrixXd load(at_strip.cols(), std::ssize(components));
   for (Index k = 0; k < load.cols(); ++k) {
     const wind::Component component = components[static_cast<std::size_t>(k)];
-    load.col(k) = component == wind::Component::across
-                      ? across_load(section, strip, rule, wind, speed_m_s)
-                      : (kinematics.transpose() * factor.col(component == wind::Component::along ? 0 : 1)).eval();
+    if (component == wind::Component::across)
+      load.col(k) = at_strip.transpose() * across_load(section, strip, rule, wind, speed_m_s);
+    else
+      load.col(k) = motion.transpose() * factor.col(component == wind::Component::along ? 0 : 1);
   }
   return load;
 }
 
 Eigen::MatrixXd load_matrix(const aero::AeroelasticSystem& system, double speed_m_s, aero::Equations equations,
                             const std::vector<wind::Component>& components) {
-  const auto n = static_cast<Index>(system.strips().size());
-  Eigen::MatrixXd load(system.structure().size(), std::ssize(components) * n);
+  const Index n = std::ssize(system.strips()), kinds = std::ssize(components);
+  Eigen::MatrixXd load(system.structure().size(), kinds * n);
   for (Index i = 0; i < n; ++i) {
-    const aero::Strip& strip = system.strips()[static_cast<std::size_t>(i)];
-    const aero::YawRule& rule = system.rule(strip);
-    const aero::SectionAero& section = system.sections()[static_cast<std::size_t>(strip.section)];
-    const LoadFactor factor = buffeting_factor(section, strip, rule, system.wind().density_kg_m3, speed_m_s, equations);
-    const aero::StripMotion& at_strip = system.motions()[static_cast<std::size_t>(i)];
-    const Eigen::MatrixXd motion = aero::kinematics(strip, rule.axes, system.wind()) * at_strip;
-    for (Index k = 0; k < std::ssize(components); ++k) {
-      const wind::Component component = components[static_cast<std::size_t>(k)];
-      if (component == wind::Component::across)
-        load.col(k * n + i) = at_strip.transpose() * across_load(section, strip, rule, system.wind(), speed_m_s);
-      else
-        load.col(k * n + i) = motion.transpose() * factor.col(component == wind::Component::along ? 0 : 1);
-    }
+    const auto at = static_cast<std::size_t>(i);
+    const aero::Strip& strip = system.strips()[at];
+    const Eigen::MatrixXd own =
+        strip_load(system.sections()[static_cast<std::size_t>(strip.section)], strip, system.rule(strip), system.wind(),
+                   speed_m_s, equations, components, system.motions()[at]);
+    for (Index k = 0; k < kinds; ++k) load.col(k * n + i) = own.col(k);
   }
   return load;
 }

@@ -31,10 +31,13 @@ using LoadFactor = Eigen::Matrix<double, 3, 2>;
 [[nodiscard]] Eigen::Matrix<double, 6, 1> across_load(const aero::SectionAero& section, const aero::Strip& strip,
                                                       const aero::YawRule& rule, const aero::Wind& wind, double speed_m_s);
 
-/// Global force and moment of a strip per unit of each component. @return [N s/m, N s] (6 × n_components)
+/// Load of a strip on some coordinates, per unit of each component.
+/// @param at_strip  (6 × m) the strip's motion in each coordinate; left out: its own global motions
+/// @return [N s/m, N s] (m × n_components)
 [[nodiscard]] Eigen::MatrixXd strip_load(const aero::SectionAero& section, const aero::Strip& strip, const aero::YawRule& rule,
                                          const aero::Wind& wind, double speed_m_s, aero::Equations equations,
-                                         const std::vector<wind::Component>& components);
+                                         const std::vector<wind::Component>& components,
+                                         const aero::StripMotion& at_strip = aero::StripMotion::Identity(6, 6));
 
 /// Buffeting forces on the coordinates of a reduced structure, per unit of turbulence at each strip.
 /// @return [N s/m] (m × n_components n_strips): columns of every strip by the first component, then by the next
