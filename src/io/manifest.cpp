@@ -7,7 +7,6 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <optional>
-#include <sstream>
 
 #include "core/build_info.hpp"
 #include "core/error.hpp"
@@ -179,11 +178,6 @@ std::string sha256(const fs::path& file) {
   require_regular_file(file);  // a pipe would be waited for without an end
   std::ifstream in(file, std::ios::binary);
   if (!in || fs::is_directory(file)) throw InputError({file.string(), 0, ""}, "cannot be opened", "check the path");
-  return sha256_of_stream(in);
-}
-
-std::string sha256_of_text(const std::string& text) {
-  std::istringstream in(text);
   return sha256_of_stream(in);
 }
 

@@ -38,7 +38,5 @@ void check_against_manifest(const std::filesystem::path& path);
 [[nodiscard]] bool is_step_folder(const std::filesystem::path& folder);
 /// SHA-256 of a file, lower-case hexadecimal.
 [[nodiscard]] std::string sha256(const std::filesystem::path& file);
-/// The same of a text.
-[[nodiscard]] std::string sha256_of_text(const std::string& text);
 
 }  // namespace twindeck::io

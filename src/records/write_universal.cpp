@@ -82,7 +82,8 @@ std::string result_text(const NodalResult& result) {
   std::string text = kDelimiter;
   text += "    55\n" + text_line(result.title);
   for (int i = 0; i < 4; ++i) text += text_line("NONE");
-  // Structural; normal or complex mode; three or six directions; displacement; real or complex; values a node.
+  // Codes of a structural result in displacements: the kind of mode, its directions, real or complex, and the values that each
+  // node has.
   text +=
       fmt::format("{:>10}{:>10}{:>10}{:>10}{:>10}{:>10}\n", 1, result.analysis, n == 6 ? 3 : 2, 8, result.complex ? 5 : 2, n);
   if (result.is_complex_mode()) {

@@ -88,7 +88,7 @@ class BrokenInput : public testing::TestWithParam<Case> {
     ASSERT_NE(::mkdtemp(name.data()), nullptr);
     root_ = name;
     const Case& c = GetParam();
-    work_ = root_ / "outer/work";  // two folders below, so that a name such as ../../x stays below `root_`
+    work_ = root_ / "outer/inner";  // two folders below, so that a name such as ../../x stays below `root_`
     fs::create_directories(work_.parent_path());
     fs::copy(kHere / "bases" / c.base, work_, fs::copy_options::recursive);
     if (!c.own_out) write_earlier_results(c.step, work_ / "out" / c.step);
@@ -112,7 +112,7 @@ class BrokenInput : public testing::TestWithParam<Case> {
 TEST_P(BrokenInput, EndsAsTheTableSays) {
   const Case& c = GetParam();
   Evidence evidence;
-  evidence.out = "outer/work/out/" + c.step;
+  evidence.out = "outer/inner/out/" + c.step;
   evidence.before = snapshot(root_);
   const Outcome checked = run({"--check"});
   EXPECT_TRUE(snapshot(root_) == evidence.before) << c.name << ": --check has changed a file";
