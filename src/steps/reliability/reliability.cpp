@@ -199,20 +199,24 @@ void add_responses(const ReliabilityConfig& config, const Structure& s, double s
 constexpr double kLeastRare = 1e-12, kLargestRare = 0.5;
 
 /// An excursion by FORM and by subset simulation, where it is neither nearly certain nor out of reach.
-void add_rare(const FragilityRow& row, const reliability::UncertainMoments& moments, std::size_t k, double duration_s,
-              std::uint64_t seed, Found& found) {
-  const double there = reliability::first_excursion(moments.mean[moments.varied[k]], row.limit, duration_s).vanmarcke;
+void add_rare(const ReliabilityConfig& config, const FragilityRow& row, const reliability::UncertainMoments& moments,
+              std::size_t k, std::uint64_t seed, Found& found) {
+  const double there = reliability::first_excursion(moments.mean[moments.varied[k]], row.limit, config.duration_s).vanmarcke;
   if (there < kLeastRare || there > kLargestRare) return;
-  const reliability::LimitState g = reliability::excursion_limit_state(moments, k, row.limit, duration_s);
+  const reliability::LimitState g = reliability::excursion_limit_state(moments, k, row.limit, config.duration_s);
   const Index n = moments.variance_slope[k].size() + 1;
   reliability::FormOptions form_options;
   reliability::SubsetOptions subset_options;
   form_options.seed = subset_options.seed = seed;
+  form_options.iterations = static_cast<int>(config.form_iterations);
+  subset_options.largest_levels = static_cast<int>(config.subset_levels);
   const reliability::FormResult points = reliability::form(g, n, form_options);
   const reliability::SubsetResult subset = reliability::subset_simulation(g, n, subset_options);
   for (const Status& status : {points.status, subset.status}) {
     if (!status.converged)
-      found.rare_status = {false, fmt::format("{} at {:g} m/s: {}", row.limit_state, row.speed_m_s, status.message)};
+      found.rare_status = {false,
+                           fmt::format("{} at {:g} m/s: {}; raise form_iterations or subset_levels, or take it out of rare",
+                                       row.limit_state, row.speed_m_s, status.message)};
   }
   if (!points.status.converged || !subset.status.converged) return;
   const reliability::DesignPoint& nearest = points.points.front();
@@ -233,7 +237,7 @@ void add_limit_states(const ReliabilityConfig& config, const Structure& s, doubl
         {name, config.response_model, s.of, speed, place, limit, std::sqrt(moments.mean[moments.varied[k]].variance), unit,
          reliability::excursion(moments, k, limit, config.duration_s, static_cast<int>(config.samples), seed)});
     if (std::find(config.rare.begin(), config.rare.end(), name) != config.rare.end())
-      add_rare(found.fragility.back(), moments, k, config.duration_s, seed, found);
+      add_rare(config, found.fragility.back(), moments, k, seed, found);
   };
   const auto node = [&](std::size_t k) {
     return node_name(s.bridge, (moments.varied[k] - 3 * s.bridge.sensors.points.size()) / 2);

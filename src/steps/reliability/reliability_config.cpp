@@ -88,6 +88,9 @@ io::FieldTable ReliabilityConfig::fields() {
       .text("response_model", response_model, "deployment of the response to turbulence")
       .number("duration", duration_s, "s", {0.0, io::longest_record_s, true}, "time in which a limit may be exceeded")
       .integer("samples", samples, {100.0, 1000000.0}, "samples of the random inputs for the spread of probabilities")
+      .integer("form_iterations", form_iterations, {1.0, 1e5}, "iterations of one search of FORM for the design point")
+      .integer("subset_levels", subset_levels, {1.0, 100.0},
+               "levels of subset simulation; each reaches probabilities ten times smaller")
       .number("damping_variation", damping_variation, "", variation,
               "coefficient of variation of the structural damping (lognormal about step 7's value); assumed")
       .number("level_variation", level_variation, "", variation,
