@@ -110,7 +110,7 @@ int contrast_of(const Candidate& candidate, const std::vector<Contrast>& contras
 MatrixXd form_covariance(const FeatureMap& map, const FeatureMap::Base& base, const std::vector<Cause>& causes,
                          const VectorXd& predicted, double frequency, double shape) {
   const FormModes modes = map.form_modes(base, causes);
-  const FormColumns form = form_columns(modes.modes, modes.paired, predicted);
+  const FormColumns form = form_columns(modes.structures, modes.paired, predicted);
   MatrixXd all(predicted.size(), form.frequency.cols() + form.shape.cols() + form.kinks.cols());
   all << frequency * form.frequency, shape * form.shape, shape * form.kinks;
   return linalg::product(all, all.transpose());

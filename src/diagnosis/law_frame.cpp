@@ -97,7 +97,7 @@ LawSystem law_system(const Inference& plain, const Fit& fit, const std::vector<C
     (map.nuisances()[static_cast<std::size_t>(k)].kind == Nuisance::Kind::gain ? gains : known).push_back(static_cast<int>(k));
   for (Index k = n; k < j.cols() - asked; ++k) known.push_back(static_cast<int>(k));
   const FormModes modes = map.form_modes(fit.base, fit.causes);
-  const FormColumns form = form_columns(modes.modes, modes.paired, fit.all.g);
+  const FormColumns form = form_columns(modes.structures, modes.paired, fit.all.g);
   std::vector<double> frequency_Hz;
   for (const MeasuredMode& mode : map.measured_modes()) frequency_Hz.push_back(mode.frequency_Hz);
   const MatrixXd rotations = close_rotations(modes.paired, frequency_Hz, map.values());

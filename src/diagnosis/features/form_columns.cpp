@@ -22,12 +22,12 @@ constexpr double kKink = 0.25;       // of a shape's norm, per unit of the form 
 constexpr double kRotation = 0.012;  // radians of a rotation times the relative gap …
 constexpr double kCovered = 0.06, kFarthest = 0.12;  // … for gaps between these
 
-/// w_i w_j / (w_i² - w_j²), the relative gap held at kLeastGap.
-double mixing(double wi, double wj) {
+/// 1 / (w_i² - w_j²), the relative gap held at kLeastGap.
+double turning(double wi, double wj) {
   const double mean = std::sqrt(wi * wj);
   if (!(mean > 0.0)) return 0.0;
   const double gap = (wi - wj) / mean;
-  return 1.0 / (std::copysign(std::max(std::abs(gap), kLeastGap), gap) * (wi + wj) / mean);
+  return 1.0 / (std::copysign(std::max(std::abs(gap), kLeastGap), gap) * (wi + wj) * mean);
 }
 
 constexpr double kAtRest = 1e-6;  // of the largest motion of the channels in any mode: less is rounding
@@ -36,7 +36,7 @@ constexpr double kAtRest = 1e-6;  // of the largest motion of the channels in an
 double size_of(const PairedMode& mode, const ModelModes& modes, const VectorXd& predicted) {
   double along = 0.0, norm = 0.0;
   for (std::size_t k = 0; k < mode.shape_rows.size(); ++k) {
-    const double phi = modes.shapes(mode.shape_channels[k], mode.model_mode);
+    const double phi = modes.shapes(mode.shape_channels[k], mode.own_mode);
     along += phi * predicted[mode.shape_rows[k]];
     norm += phi * phi;
   }
@@ -44,39 +44,61 @@ double size_of(const PairedMode& mode, const ModelModes& modes, const VectorXd& 
   return norm > kAtRest * kAtRest * largest ? along / norm : 0.0;
 }
 
+/// Shapes of a structure that its mode takes up, for each base mode k of which they hold a part: sum_n C_kn psi_n / (w_q² -
+/// w_n²) (n_channels × n_modes of the base).
+MatrixXd taken_up(const ModelModes& modes, Index own) {
+  MatrixXd out = MatrixXd::Zero(modes.shapes.rows(), modes.along.rows());
+  for (Index n = 0; n < modes.omega_rad_s.size(); ++n)
+    if (n != own)
+      out += turning(modes.omega_rad_s[own], modes.omega_rad_s[n]) * modes.shapes.col(n) * modes.along.col(n).transpose();
+  return out;
+}
+
 }  // namespace
 
-FormColumns form_columns(const ModelModes& modes, const std::vector<PairedMode>& paired, const VectorXd& predicted) {
-  std::map<int, Index> frequency;              // by model mode
+FormColumns form_columns(const std::vector<ModelModes>& structures, const std::vector<PairedMode>& paired,
+                         const VectorXd& predicted) {
+  const VectorXd omega = structures.empty() ? VectorXd() : structures.front().omega_rad_s;  // of the base
+  const int lowest = std::min<int>(kLowestModes, static_cast<int>(omega.size()));
+  std::set<int> known;
   std::map<std::pair<int, int>, Index> pairs;  // (i, j), i < j
-  std::map<std::pair<int, int>, Index> kinks;  // (model mode, channel)
-  const int lowest = std::min<int>(kLowestModes, static_cast<int>(modes.omega_rad_s.size()));
+  std::map<std::pair<int, int>, Index> kinks;  // (base mode, channel)
   for (const PairedMode& mode : paired) {
     if (mode.model_mode < 0) continue;
-    frequency.try_emplace(mode.model_mode, std::ssize(frequency));
+    known.insert(mode.model_mode);
     if (mode.shape_rows.empty()) continue;
     for (int j = 0; j < lowest; ++j)
       if (j != mode.model_mode) pairs.try_emplace(std::minmax(mode.model_mode, j), std::ssize(pairs));
     for (const int channel : mode.shape_channels) kinks.try_emplace({mode.model_mode, channel}, std::ssize(kinks));
   }
   const Index n = predicted.size();
-  FormColumns out{MatrixXd::Zero(n, std::ssize(frequency)), MatrixXd::Zero(n, std::ssize(pairs)),
+  const std::vector<int> single(known.begin(), known.end());
+  FormColumns out{MatrixXd::Zero(n, std::ssize(single)), MatrixXd::Zero(n, std::ssize(pairs)),
                   MatrixXd::Zero(n, std::ssize(kinks))};
   for (const PairedMode& mode : paired) {
-    const int i = mode.model_mode;
-    if (i < 0) continue;
-    if (mode.frequency_row >= 0) out.frequency(mode.frequency_row, frequency.at(i)) = 1.0;
+    if (mode.model_mode < 0) continue;
+    const ModelModes& modes = structures[static_cast<std::size_t>(mode.structure)];
+    const VectorXd part = modes.along.col(mode.own_mode);
+    const double square = modes.omega_rad_s[mode.own_mode] * modes.omega_rad_s[mode.own_mode];
     const double size = size_of(mode, modes, predicted);
+    const MatrixXd turned = mode.shape_rows.empty() ? MatrixXd() : taken_up(modes, mode.own_mode);
+    /// Of a stiffness M (phi_i phi_j' + phi_j phi_i') M, per unit of w_i w_j.
+    const auto add = [&](int i, int j, MatrixXd& columns, Index column) {
+      const double unit = omega[i] * omega[j];
+      if (mode.frequency_row >= 0 && square > 0.0) columns(mode.frequency_row, column) = unit * part[i] * part[j] / square;
+      for (std::size_t k = 0; k < mode.shape_rows.size(); ++k) {
+        const int channel = mode.shape_channels[k];
+        columns(mode.shape_rows[k], column) = size * unit * (part[j] * turned(channel, i) + part[i] * turned(channel, j));
+      }
+    };
+    for (std::size_t k = 0; k < single.size(); ++k) add(single[k], single[k], out.frequency, static_cast<Index>(k));
+    for (const auto& [pair, column] : pairs) add(pair.first, pair.second, out.shape, column);
     double norm = 0.0;
     for (const int row : mode.shape_rows) norm += predicted[row] * predicted[row];
-    for (std::size_t k = 0; k < mode.shape_rows.size(); ++k) {
-      const int row = mode.shape_rows[k], channel = mode.shape_channels[k];
-      out.kinks(row, kinks.at({i, channel})) = kKink * std::sqrt(norm);
-      for (int j = 0; j < lowest; ++j)
-        if (j != i)
-          out.shape(row, pairs.at(std::minmax(i, j))) =
-              size * mixing(modes.omega_rad_s[i], modes.omega_rad_s[j]) * modes.shapes(channel, j);
-    }
+    for (std::size_t k = 0; k < mode.shape_rows.size(); ++k)
+      for (const int i : single)
+        if (const auto kink = kinks.find({i, mode.shape_channels[k]}); kink != kinks.end())
+          out.kinks(mode.shape_rows[k], kink->second) = kKink * std::sqrt(norm) * part[i];
   }
   return out;
 }

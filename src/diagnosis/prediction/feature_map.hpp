@@ -63,11 +63,10 @@ struct Prediction {
 /// nothing of the other.
 [[nodiscard]] Eigen::VectorXd change_between(const Prediction& from, const Prediction& to);
 
-/// Undamped modes of the model as the channels see them, and which of them each measured mode is paired with.
+/// Undamped modes of the model as the channels see them in each structure that was measured (the first condition's first), and
+/// which of them each measured mode is paired with.
 struct FormModes {
-  ModelModes modes;
-  std::vector<int> columns;        ///< the reduced model's coordinates that the modes move in
-  Eigen::MatrixXd coordinates;     ///< (n_columns × n_modes) the modes in them
+  std::vector<ModelModes> structures;
   std::vector<PairedMode> paired;  ///< (n_measured_modes), empty if the model predicts none of these rows
 };
 

@@ -1,4 +1,6 @@
 #include <algorithm>
+#include <map>
+#include <utility>
 
 #include "diagnosis/prediction/predictor.hpp"
 
@@ -20,41 +22,50 @@ FormModes Predictor::form_modes() {
   FormModes out;
   const Prediction prediction = run();
   if (!prediction.valid || map_.modes_.empty()) return out;
-  const SolvedState& first = solved(map_.modes_.front().condition);
-  const UndampedModes& all = undamped_.of(first.state.stiffness, first.state.mass);
-  const Index count = std::min<Index>((all.mu.array() > 0.0).count(), first.modes.s.size() + kFurtherModes);
-  const auto n = static_cast<Index>(first.columns.size());
-  MatrixXd shapes = all.shapes.leftCols(count);
-  out.modes.omega_rad_s.resize(count);
-  for (Index j = 0; j < count; ++j) {
-    out.modes.omega_rad_s[j] = std::sqrt(std::max(all.eigenvalue(j), 0.0));
-    shapes.col(j) /= std::sqrt(all.mu[j]);
-  }
-  out.columns = first.columns;
-  out.coordinates = shapes.topRows(n);
-  out.modes.shapes = channel_factor_.asDiagonal() * channel_rows(first.columns) * shapes.topRows(n);
   // Alike in the coordinates that every state has. Shapes are mass-normalised with everything that moves in them, so that an
   // oscillator's own mode, in which the structure hardly does, is like none of the structure's.
   const Index c = map_.model().common;
-  const MatrixXd weighted = base_.common_mass * shapes.topRows(c);
+  std::map<const UndampedModes*, int> known;
+  std::vector<MatrixXd> common;  // of each structure's modes (c × n_modes)
+  MatrixXd weighted;             // of the base's, times the mass
+  const auto structure_of = [&](const SolvedState& state) {
+    const UndampedModes& all = undamped_.of(state.state.stiffness, state.state.mass);
+    const auto [at, is_new] = known.try_emplace(&all, static_cast<int>(std::ssize(out.structures)));
+    if (!is_new) return at->second;
+    const Index count = std::min<Index>((all.mu.array() > 0.0).count(), state.modes.s.size() + kFurtherModes);
+    ModelModes modes{VectorXd(count), {}, {}};
+    MatrixXd shapes = all.shapes.leftCols(count);
+    for (Index j = 0; j < count; ++j) {
+      modes.omega_rad_s[j] = std::sqrt(std::max(all.eigenvalue(j), 0.0));
+      shapes.col(j) /= std::sqrt(all.mu[j]);
+    }
+    modes.shapes = channel_factor_.asDiagonal() * channel_rows(state.columns) * shapes.topRows(std::ssize(state.columns));
+    if (out.structures.empty()) weighted = base_.common_mass * shapes.topRows(c);
+    modes.along =
+        out.structures.empty() ? MatrixXd::Identity(count, count) : MatrixXd(weighted.transpose() * shapes.topRows(c));
+    common.push_back(shapes.topRows(c));
+    out.structures.push_back(std::move(modes));
+    return at->second;
+  };
   for (std::size_t m = 0; m < map_.modes_.size(); ++m) {
     const MeasuredMode& measured = map_.modes_[m];
-    PairedMode mode{-1, measured.condition, measured.frequency, measured.real_rows, measured.real_channels};
-    if (prediction.paired[m] < 0) {
-      out.paired.push_back(mode);
-      continue;
-    }
+    PairedMode mode{-1, measured.condition, measured.frequency, measured.real_rows, measured.real_channels, 0, 0};
     const SolvedState& state = solved(measured.condition);
-    const VectorXd re = state.modes.shapes.col(prediction.paired[m]).head(c).real(),
-                   im = state.modes.shapes.col(prediction.paired[m]).head(c).imag();
-    const double own = re.dot(base_.common_mass * re) + im.dot(base_.common_mass * im);
-    double best = kLeastLikeness;
-    for (Index j = 0; j < count; ++j) {
-      const double along = std::pow(weighted.col(j).dot(re), 2) + std::pow(weighted.col(j).dot(im), 2);
-      const double mac = own > 0.0 ? along / own : 0.0;
-      if (mac <= best) continue;
-      best = mac;
-      mode.model_mode = static_cast<int>(j);
+    mode.structure = structure_of(state);
+    if (prediction.paired[m] >= 0) {
+      const VectorXd re = base_.common_mass * state.modes.shapes.col(prediction.paired[m]).head(c).real(),
+                     im = base_.common_mass * state.modes.shapes.col(prediction.paired[m]).head(c).imag();
+      const auto most_like = [&](const MatrixXd& shapes) {
+        Index at = 0;
+        const double along =
+            ((shapes.transpose() * re).array().square() + (shapes.transpose() * im).array().square()).maxCoeff(&at);
+        return std::pair(static_cast<int>(at), along);
+      };
+      const double own = state.modes.shapes.col(prediction.paired[m]).head(c).real().dot(re) +
+                         state.modes.shapes.col(prediction.paired[m]).head(c).imag().dot(im);
+      mode.own_mode = most_like(common[static_cast<std::size_t>(mode.structure)]).first;
+      const auto [base, along] = most_like(common.front());
+      if (along > kLeastLikeness * own) mode.model_mode = base;
     }
     out.paired.push_back(mode);
   }

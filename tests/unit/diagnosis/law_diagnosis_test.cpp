@@ -249,15 +249,15 @@ TEST(FormModes, AreThoseOfTheModelAndExchangeWithTheChannels) {
   const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(chain.stiffness(chain.as_modelled()) / Chain::kMass);
   for (int m = 0; m < 5; ++m) {
     EXPECT_EQ(modes.paired[static_cast<std::size_t>(m)].model_mode, m);
-    EXPECT_NEAR(modes.modes.omega_rad_s[m] / std::sqrt(eigen.eigenvalues()[m]), 1.0, 1e-6);
+    EXPECT_NEAR(modes.structures.front().omega_rad_s[m] / std::sqrt(eigen.eigenvalues()[m]), 1.0, 1e-6);
     const Eigen::VectorXd shape = eigen.eigenvectors().col(m) / std::sqrt(Chain::kMass);
-    EXPECT_NEAR(std::abs(modes.modes.shapes.col(m).dot(shape)) / shape.squaredNorm(), 1.0, 1e-6);
+    EXPECT_NEAR(std::abs(modes.structures.front().shapes.col(m).dot(shape)) / shape.squaredNorm(), 1.0, 1e-6);
   }
   const auto& swap = e.entry("swap@channels:c3,c7");
   const auto exchanged = e.map->form_modes(base, {{&swap, Eigen::VectorXd()}});
-  EXPECT_LT((exchanged.modes.shapes.row(2) - modes.modes.shapes.row(6)).norm(), 1e-12);
-  EXPECT_LT((exchanged.modes.shapes.row(6) - modes.modes.shapes.row(2)).norm(), 1e-12);
-  EXPECT_LT((exchanged.modes.shapes.row(4) - modes.modes.shapes.row(4)).norm(), 1e-12);
+  EXPECT_LT((exchanged.structures.front().shapes.row(2) - modes.structures.front().shapes.row(6)).norm(), 1e-12);
+  EXPECT_LT((exchanged.structures.front().shapes.row(6) - modes.structures.front().shapes.row(2)).norm(), 1e-12);
+  EXPECT_LT((exchanged.structures.front().shapes.row(4) - modes.structures.front().shapes.row(4)).norm(), 1e-12);
 }
 
 TEST(DiagnoseByLaw, ACauseWhereNoneMayBeTakenIsUnknown) {
