@@ -7,6 +7,8 @@
 #include <set>
 
 #include "diagnosis/form_frame.hpp"
+#include "diagnosis/law_openings.hpp"
+#include "diagnosis/law_search.hpp"
 
 namespace twindeck::diagnosis {
 
@@ -21,7 +23,8 @@ constexpr std::array<FormLevel, 3> kLevels = {{{0.01, 0.01}, {0.02, 0.03}, {0.03
 // cause that acts in every condition may be what is left; above it the model is grossly off, and fits stand the level at which
 // the second is met.
 constexpr double kGrossMisfit = 10.0, kLargestMisfit = 2.0;
-constexpr double kAside = 10.0;  // deviation of rows that are set aside: e^10, far beyond any change
+constexpr int kRoundsOfOpening = 4;  // of fits and openings that follow each other
+constexpr double kAside = 10.0;      // deviation of rows that are set aside: e^10, far beyond any change
 /// Conditions that the first fit is made to.
 std::set<int> plainest_conditions(const FeatureSet& features) {
   std::set<int> out;
@@ -105,10 +108,29 @@ FormLevel level_of_fits(const Inference& whole, const FeatureMap::Base& prior, c
   return kLevels.back();
 }
 
-Fit first_fit(const Inference& informed) {
-  const std::vector<int> others = rows_outside(informed.map().features(), plainest_conditions(informed.map().features()));
-  const Fit fit = fit_without(informed, others);
-  return others.empty() || !fit.made() ? fit : informed.stand(fit.map.x);
+Fit first_fit(const Inference& plain, const Inference& informed) {
+  const FeatureMap& map = plain.map();
+  const std::vector<int> others = rows_outside(map.features(), plainest_conditions(map.features()));
+  const MatrixXd aside = set_aside(others, std::ssize(map.features().rows));
+  FeatureMap exact_map = map, quiet_map = informed.map();
+  exact_map.add_covariance(aside);
+  quiet_map.add_covariance(aside);
+  const Inference exact(exact_map, plain.candidates()), quiet(quiet_map, plain.candidates());
+  Fit fit = quiet.fit({}, {});
+  std::vector<int> opened;
+  for (int round = 0; round < kRoundsOfOpening && fit.made(); ++round) {
+    LawSystem system = law_system(exact, fit, {});
+    if (!can_be_weighed(system)) break;
+    const LawHypothesis none{system.residual,        VectorXd::Zero(1), MatrixXd(system.residual.size(), 0), {}, {},
+                             lasting_classes(system)};
+    std::vector<int> now = scored_with_openings(exact, system, none, VectorXd::Ones(std::ssize(system.classes))).opened;
+    if (std::is_permutation(now.begin(), now.end(), opened.begin(), opened.end())) break;
+    Fit again = fit_with_open(quiet, now, {}, fit.map.x);
+    if (!again.made()) break;
+    fit = std::move(again);
+    opened = std::move(now);
+  }
+  return !fit.made() || (others.empty() && opened.empty()) ? fit : informed.stand(fit.map.x);
 }
 
 }  // namespace twindeck::diagnosis

@@ -25,6 +25,7 @@ struct FormLevel {
 /// number of people, no dampers, and the highest temperature, since bearings slip at large amplitudes and freeze in the cold.
 /// Rows of the others say what changed, and a compromise between states, or between a bearing that holds and one that slips,
 /// would be neither of them.
-[[nodiscard]] Fit first_fit(const Inference& informed);
+/// Measured modes that have more evidence as none of the model's do not bend it (law_openings.hpp).
+[[nodiscard]] Fit first_fit(const Inference& plain, const Inference& informed);
 
 }  // namespace twindeck::diagnosis

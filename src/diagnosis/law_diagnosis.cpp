@@ -33,8 +33,8 @@ Scored as_scored(const LawSearch& search, const LawAccount& account, const Infer
   Scored out;
   out.candidate = entry.candidate;
   out.a = account.causes.front().a;
-  out.log_odds = account.log_weight - search.none.log_evidence;
-  out.screen = std::max(0.0, 2.0 * (account.log_weight - account.log_prior - search.none.log_evidence));
+  out.log_odds = account.log_weight - search.nothing.log_weight;
+  out.screen = std::max(0.0, 2.0 * (account.log_weight - account.log_prior - search.nothing.log_weight));
   out.remaining = account.evidence.chi_squared;
   out.fitted = account.refined();
   if (out.a.size() == entry.candidate->low.size()) out.signature = informed.signature(search.base, *entry.candidate, out.a);
@@ -91,7 +91,8 @@ class ByLaw {
     out_.log_odds = judgement_.log_odds;
     out_.threshold = std::log(kSetProbability / (1.0 - kSetProbability));
     out_.verdict = judgement_.verdict;
-    winner_ = search_.none;
+    winner_ = search_.nothing.evidence;
+    opened_ = search_.nothing.opened;
     reason_ = reason_of_verdict();
     refuse_partial();
     guard();
@@ -113,6 +114,9 @@ class ByLaw {
   [[nodiscard]] const Fit& fitted() const { return fitted_; }
   [[nodiscard]] const std::string& reason() const { return reason_; }
   [[nodiscard]] const LawEvidence& winner() const { return winner_; }
+  [[nodiscard]] bool opened(std::size_t mode) const {
+    return std::find(opened_.begin(), opened_.end(), static_cast<int>(mode)) != opened_.end();
+  }
 
   /// What the last fit says of the sizes may refuse the name.
   void refuse_sizes() {
@@ -139,7 +143,7 @@ class ByLaw {
   }
 
   [[nodiscard]] double weight_of_nothing() const {
-    std::vector<double> terms = {search_.none.log_evidence};
+    std::vector<double> terms = {search_.nothing.log_weight};
     for (const LawAccount& account : search_.model_errors) terms.push_back(account.log_weight);
     return log_sum(terms);
   }
@@ -270,6 +274,7 @@ class ByLaw {
       return false;
     }
     winner_ = leader.evidence;
+    opened_ = leader.opened;
     causes_ = with.causes;
     fitted_ = std::move(with);
     return true;
@@ -337,6 +342,7 @@ class ByLaw {
   LawSearch search_;
   Judgement judgement_;
   LawEvidence winner_;
+  std::vector<int> opened_;
   std::vector<Cause> causes_;
   Fit fitted_;
   std::string reason_;
@@ -373,11 +379,11 @@ void finish_by_law(const Inference& plain, const ByLaw& engine, const DiagnoseOp
 }
 
 /// Tells which measured modes are none of the model's under the answer.
-void add_open_modes(const FeatureMap& map, Diagnosis& out) {
+void add_open_modes(const FeatureMap& map, const ByLaw& engine, Diagnosis& out) {
   std::vector<std::string> modes;
   for (std::size_t m = 0; m < map.measured_modes().size(); ++m) {
     const MeasuredMode& mode = map.measured_modes()[m];
-    if (out.after.all.paired[m] >= 0) continue;
+    if (out.after.all.paired[m] >= 0 && !engine.opened(m)) continue;
     modes.push_back(fmt::format(
         "{} ({:.4g} Hz{}{})", mode.label, mode.frequency_Hz, map.features().conditions.size() > 1 ? ", " : "",
         map.features().conditions.size() > 1 ? map.features().conditions[static_cast<std::size_t>(mode.condition)].name : ""));
@@ -417,7 +423,7 @@ Diagnosis diagnose(const Inference& whole, const DiagnoseOptions& options, std::
   const FeatureMap informed_map = with_form_error(map, prior, nominal.g, level_of_fits(whole, prior, nominal.g));
   const Inference informed(informed_map, plain.candidates());
   const LawSetting setting{plain, informed, contrasts, options.static_odds, options.progress};
-  out.before = first_fit(informed);
+  out.before = first_fit(plain, informed);
   if (!out.before.made()) {
     out.message += ": " + out.before.map.status.message;
     return out;
@@ -427,7 +433,7 @@ Diagnosis diagnose(const Inference& whole, const DiagnoseOptions& options, std::
   engine.run();
   finish_by_law(plain, engine, options, seed, out);
   engine.refuse_sizes();
-  add_open_modes(map, out);
+  add_open_modes(map, engine, out);
   out.message = message_by_law(out, engine);
   return out;
 }

@@ -34,23 +34,17 @@ MatrixXd beside(const std::vector<MatrixXd>& parts, Index rows) {
   return out;
 }
 
-/// Variance of the rows that a prediction leaves open, wide enough for any mode of the band, and ln of the prior of so many
-/// modes that are none of the model's.
+/// Variance of the rows that a prediction leaves open, and ln of the prior of so many modes that are none of the model's.
 std::pair<VectorXd, double> open_modes(const FeatureMap& map, const Prediction& prediction) {
   VectorXd variance = VectorXd::Zero(map.values().size());
   double log_prior = 0.0;
-  const std::set<int> open(prediction.open.begin(), prediction.open.end());
   for (std::size_t m = 0; m < map.measured_modes().size(); ++m) {
-    const MeasuredMode& mode = map.measured_modes()[m];
-    if (prediction.paired[m] < 0) log_prior += std::log(kNoneOfTheModels);
-    for (const int row : {mode.frequency, mode.damping})
-      if (row >= 0 && open.contains(row))
-        variance[row] = row == mode.frequency ? kOpenFrequency * kOpenFrequency : kOpenDamping * kOpenDamping;
-    if (mode.real_rows.empty() || !open.contains(mode.real_rows.front())) continue;
-    const double square = map.values()(mode.real_rows).squaredNorm() / static_cast<double>(mode.real_rows.size());
-    for (const auto* rows : {&mode.real_rows, &mode.imag_rows})
-      for (const int row : *rows) variance[row] = square;
+    if (prediction.paired[m] < 0) log_prior += log_prior_of_open();
+    variance = variance.cwiseMax(variance_of_open(map, map.measured_modes()[m]));
   }
+  const std::set<int> open(prediction.open.begin(), prediction.open.end());
+  for (Index r = 0; r < variance.size(); ++r)
+    if (!open.contains(static_cast<int>(r))) variance[r] = 0.0;
   return {variance, log_prior};
 }
 
@@ -83,6 +77,19 @@ MatrixXd along(const Contrast& contrast, const FeatureSet& features, const std::
 }
 
 }  // namespace
+
+VectorXd variance_of_open(const FeatureMap& map, const MeasuredMode& mode) {
+  VectorXd out = VectorXd::Zero(map.values().size());
+  if (mode.frequency >= 0) out[mode.frequency] = kOpenFrequency * kOpenFrequency;
+  if (mode.damping >= 0) out[mode.damping] = kOpenDamping * kOpenDamping;
+  if (mode.real_rows.empty()) return out;
+  const double square = map.values()(mode.real_rows).squaredNorm() / static_cast<double>(mode.real_rows.size());
+  for (const auto* rows : {&mode.real_rows, &mode.imag_rows})
+    for (const int row : *rows) out[row] = square;
+  return out;
+}
+
+double log_prior_of_open() { return std::log(kNoneOfTheModels); }
 
 LawSystem law_system(const Inference& plain, const Fit& fit, const std::vector<Contrast>& contrasts, std::size_t tested) {
   TWINDECK_ASSERT(fit.made() && tested <= fit.causes.size());

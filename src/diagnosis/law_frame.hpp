@@ -25,6 +25,12 @@ constexpr double kUnitOfClasses = 0.01;  ///< [-] of a scale of 1: about what a 
 [[nodiscard]] LawSystem law_system(const Inference& plain, const Fit& fit, const std::vector<Contrast>& contrasts,
                                    std::size_t tested = 0);
 
+/// Variance of the rows of a measured mode that is none of the model's, wide enough for any mode of the band, and 0 of all
+/// other rows (n_rows).
+[[nodiscard]] Eigen::VectorXd variance_of_open(const FeatureMap& map, const MeasuredMode& mode);
+/// ln of the prior probability that a measured mode is none of the model's.
+[[nodiscard]] double log_prior_of_open();
+
 /// Whether 16 digits suffice for a system: products of columns in deviations of their rows stay far below what swallows the
 /// unknowns' own variance of one. An extended model whose derivatives mean nothing fails it, and so do rows that are measured
 /// to a part in a million.

@@ -50,15 +50,12 @@ Explanation explanation_by_law(const LawSearch& search, const LawAccount& accoun
 }  // namespace
 
 const LawAccount* leading_model_error(const LawSearch& search) {
-  if (search.model_errors.empty() || search.model_errors.front().log_weight < search.none.log_evidence) return nullptr;
+  if (search.model_errors.empty() || search.model_errors.front().log_weight < search.nothing.log_weight) return nullptr;
   return &search.model_errors.front();
 }
 
 PredictiveGain gain_by_law(const LawSetting& setting, const LawSearch& search, int bootstrap, std::uint64_t seed) {
-  LawAccount nothing;
-  nothing.evidence = search.none;
-  nothing.log_weight = search.none.log_evidence;
-  nothing.hypothesis = {search.system.residual, VectorXd::Zero(1), MatrixXd(search.system.residual.size(), 0), {}, {}, {}};
+  LawAccount nothing = search.nothing;
   if (const LawAccount* error = leading_model_error(search); error != nullptr && error->scored) nothing = *error;
   std::vector<Explanation> entries;
   for (const LawAccount& account : search.accounts)

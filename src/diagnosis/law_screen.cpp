@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <map>
 #include <numbers>
 
@@ -27,6 +28,21 @@ constexpr double kShows = 1e-3;               // deviations: below, these rows s
 double log_sum_of(const VectorXd& v) {
   const double top = v.maxCoeff();
   return top + std::log((v.array() - top).exp().sum());
+}
+
+/// Of a factor the best magnitude on the other side of one, where a fit may find another optimum; empty for all else.
+/// @param terms  of each magnitude that was tried, at `each` sizes
+VectorXd best_across(const LawEntry& entry, const VectorXd& a, const VectorXd& terms, std::size_t each) {
+  if (entry.candidate->hypothesis->unknowns.empty() || entry.candidate->hypothesis->unknowns[0].name != "factor") return {};
+  VectorXd out;
+  double most = -std::numeric_limits<double>::infinity();
+  for (Index k = 0; k < terms.size(); ++k) {
+    const VectorXd& tried = entry.tried[static_cast<std::size_t>(k) / each].a;
+    if (terms[k] <= most || tried[0] * a[0] >= 0.0) continue;
+    most = terms[k];
+    out = tried;
+  }
+  return out;
 }
 
 /// Scales at which entries are looked at, with the volume of Laplace's approximation.
@@ -104,6 +120,7 @@ class Screen {
         account.causes = {{entry.candidate, entry.tried[tried].a}};
         if (is_a_size(*entry.candidate))
           account.causes.front().a[0] = scaled_magnitude(*entry.candidate, account.causes.front().a[0], factors[factor]);
+        account.across = best_across(entry, account.causes.front().a, terms, factors.size());
         account.effect = factors[factor] * entry.effects[tried];
         account.evidence.chi_squared = residual.squaredNorm() - 2.0 * terms[best];
       });

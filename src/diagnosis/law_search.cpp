@@ -8,6 +8,7 @@
 
 #include "core/parallel.hpp"
 #include "diagnosis/form_magnitudes.hpp"
+#include "diagnosis/law_openings.hpp"
 #include "diagnosis/law_screen.hpp"
 #include "diagnosis/law_sets.hpp"
 #include "linalg/dense.hpp"
@@ -103,58 +104,81 @@ bool acts_in_contrast(const LawSearch& search, const LawAccount& account, int co
   });
 }
 
-/// A set with its causes in the model, fitted from each start; of fits the one of the largest evidence counts, and it takes the
-/// place of what the screen found.
-void refine_by_law(const LawSetting& setting, const LawSearch& search, LawAccount& account,
-                   const std::vector<VectorXd>& starts) {
-  std::vector<Cause> start = search.base.causes;
-  start.insert(start.end(), account.causes.begin(), account.causes.end());
-  const VectorXd tau = account.evidence.tau;
+/// A set at a fit with its causes in the model. Of fits the one of the largest evidence counts, and it takes the place of what
+/// the screen found.
+void weigh_fit(const LawSetting& setting, const LawSearch& search, LawAccount& account, const VectorXd& tau, Fit with) {
   std::vector<bool> acts(setting.plain.map().features().conditions.size(), false);
   for (const int m : account.members) {
     const LawEntry& entry = search.entries[static_cast<std::size_t>(m)];
     const std::vector<bool> own = acting_conditions(setting, *entry.candidate, entry.contrast);
     for (std::size_t c = 0; c < acts.size(); ++c) acts[c] = acts[c] || own[c];
   }
-  VectorXd found_before;
   std::vector<Contrast> contrasts = setting.contrasts;  // those of the set alone: the others' classes are absent
   for (std::size_t c = 0; c < contrasts.size(); ++c)
     if (!acts_in_contrast(search, account, static_cast<int>(c))) contrasts[c].weight.setZero();
+  auto system = std::make_shared<LawSystem>(law_system(setting.plain, with, contrasts, account.members.size()));
+  if (!can_be_weighed(*system)) return;  // costs the entry, not the results
+  const Prediction without = setting.plain.map().predict(with.base, search.base.causes, false);
+  const double effect = without.valid ? effect_on(setting.plain, change_between(without, with.all), acts) : account.effect;
+  LawHypothesis hypothesis{system->residual,
+                           VectorXd::Zero(1),
+                           system->signatures,
+                           VectorXd(system->signatures.cols()),
+                           VectorXd(system->signatures.cols()),
+                           classes_of(search, *system, account, effect)};
+  Index at = 0;
+  for (std::size_t c = search.base.causes.size(); c < with.causes.size(); ++c)
+    for (Index k = 0; k < with.causes[c].a.size(); ++k, ++at) {
+      hypothesis.low[at] = with.causes[c].candidate->low[k] - with.causes[c].a[k];
+      hypothesis.high[at] = with.causes[c].candidate->high[k] - with.causes[c].a[k];
+    }
+  OpenedEvidence found = scored_with_openings(setting.plain, *system, hypothesis, tau);
+  const double weight = found.evidence.log_evidence + account.log_prior;
+  if (found.evidence.weight.size() == 0 || (account.refined() && !(weight > account.log_weight))) return;
+  account.log_weight = weight;
+  account.evidence = std::move(found.evidence);
+  account.opened = std::move(found.opened);
+  account.hypothesis = std::move(hypothesis);
+  account.effect = effect;
+  account.causes.assign(with.causes.begin() + std::ssize(search.base.causes), with.causes.end());
+  account.with = std::move(with);
+  account.system = std::move(system);
+  account.scored = true;
+}
+
+/// A set with its causes in the model, fitted from each start.
+void refine_by_law(const LawSetting& setting, const LawSearch& search, LawAccount& account,
+                   const std::vector<VectorXd>& starts) {
+  std::vector<Cause> start = search.base.causes;
+  start.insert(start.end(), account.causes.begin(), account.causes.end());
+  const VectorXd tau = account.evidence.tau;
+  VectorXd found_before;
   for (const VectorXd& x : starts) {
     Fit with = setting.informed.fit(start, x);
     if (!with.made()) continue;
     if (found_before.size() > 0 && (with.map.x - found_before).norm() < kOneFit) continue;
     found_before = with.map.x;
-    auto system = std::make_shared<LawSystem>(law_system(setting.plain, with, contrasts, account.members.size()));
-    if (!can_be_weighed(*system)) continue;  // costs the entry, not the results
-    const OneLaw law(*system);
-    if (!law.sound()) continue;
-    const Prediction without = setting.plain.map().predict(with.base, search.base.causes, false);
-    const double effect = without.valid ? effect_on(setting.plain, change_between(without, with.all), acts) : account.effect;
-    LawHypothesis hypothesis{system->residual,
-                             VectorXd::Zero(1),
-                             system->signatures,
-                             VectorXd(system->signatures.cols()),
-                             VectorXd(system->signatures.cols()),
-                             classes_of(search, *system, account, effect)};
-    Index at = 0;
-    for (std::size_t c = search.base.causes.size(); c < with.causes.size(); ++c)
-      for (Index k = 0; k < with.causes[c].a.size(); ++k, ++at) {
-        hypothesis.low[at] = with.causes[c].candidate->low[k] - with.causes[c].a[k];
-        hypothesis.high[at] = with.causes[c].candidate->high[k] - with.causes[c].a[k];
-      }
-    const LawEvidence evidence = law.scored(hypothesis, tau);
-    const double weight = evidence.log_evidence + account.log_prior;
-    if (evidence.weight.size() == 0 || (account.refined() && !(weight > account.log_weight))) continue;
-    account.log_weight = weight;
-    account.evidence = evidence;
-    account.hypothesis = std::move(hypothesis);
-    account.effect = effect;
-    account.causes.assign(with.causes.begin() + std::ssize(search.base.causes), with.causes.end());
-    account.with = std::move(with);
-    account.system = std::move(system);
-    account.scored = true;
+    weigh_fit(setting, search, account, tau, std::move(with));
   }
+  if (account.members.size() > 1 || account.across.size() == 0) return;
+  start.back().a = account.across;
+  Fit with = setting.informed.fit(start, starts.front());
+  if (with.made()) weigh_fit(setting, search, account, tau, std::move(with));
+}
+
+/// Fits the leading accounts anew without the modes that they hold for none of the model's, which have bent the fit.
+void fit_without_opened(const LawSetting& setting, LawSearch& search) {
+  const double near = search.accounts.front().log_weight - kNear;
+  std::vector<LawAccount*> these;
+  for (LawAccount& account : search.accounts)
+    if (account.log_weight > near && account.refined() && !account.opened.empty()) these.push_back(&account);
+  parallel_for(these.size(), [&](std::size_t i) {
+    LawAccount& account = *these[i];
+    const VectorXd x = account.with.map.x.head(std::ssize(setting.plain.map().nuisances()));
+    Fit with = fit_with_open(setting.informed, account.opened, account.with.causes, x);
+    if (with.made()) weigh_fit(setting, search, account, VectorXd(account.evidence.tau), std::move(with));
+  });
+  sort_accounts(search.accounts);
 }
 
 /// Scales that a set starts from: those of its best member that was scored, with what is left over in each of its contrasts.
@@ -305,6 +329,35 @@ const LawAccount& account_to_take(const std::vector<const LawAccount*>& possible
   return **std::min_element(possible.begin(), possible.end(), before);
 }
 
+namespace {
+
+/// No cause, and "something else" in each contrast, as they are held against the causes: with modes of their own opened.
+void weigh_nothing(const LawSetting& setting, LawSearch& search) {
+  const LawSystem bare{search.system.sigma, search.system.classes, search.system.residual, {}, search.system.log_prior};
+  const LawHypothesis none{bare.residual, VectorXd::Zero(1), MatrixXd(bare.residual.size(), 0), {}, {}, lasting_classes(bare)};
+  const auto weigh = [&](const LawHypothesis& hypothesis, const VectorXd& tau) {
+    LawAccount account;
+    auto system = std::make_shared<LawSystem>(bare);
+    OpenedEvidence opened = scored_with_openings(setting.plain, *system, hypothesis, tau);
+    account.hypothesis = hypothesis;
+    account.evidence = std::move(opened.evidence);
+    account.opened = std::move(opened.opened);
+    account.log_weight = account.evidence.log_evidence;
+    account.system = std::move(system);
+    account.scored = true;
+    return account;
+  };
+  search.nothing = weigh(none, search.none.tau);
+  parallel_for(search.else_weight.size(), [&](std::size_t c) {
+    LawHypothesis other = none;
+    other.active.push_back({kFirstContrast + static_cast<int>(c), 1.0});
+    const double prior = search.else_weight[c] - search.something_else[c].log_evidence;
+    search.else_weight[c] = prior + weigh(other, search.something_else[c].tau).log_weight;
+  });
+}
+
+}  // namespace
+
 LawSearch search_by_law(const LawSetting& setting, const Fit& base) {
   LawSearch out;
   out.base = base;
@@ -314,6 +367,7 @@ LawSearch search_by_law(const LawSetting& setting, const Fit& base) {
   out.weighed = can_be_weighed(out.system) && law.sound();
   if (!out.weighed) return out;
   screen_by_law(setting, out, law);
+  weigh_nothing(setting, out);
   if (out.accounts.empty() || out.accounts.front().log_weight < out.none.log_evidence + kFarBelow) return out;
   const auto n = static_cast<Index>(setting.plain.map().nuisances().size());
   const std::vector<VectorXd> starts = {out.base.map.x.head(n), {}};
@@ -329,6 +383,9 @@ LawSearch search_by_law(const LawSetting& setting, const Fit& base) {
         },
         [&](int fitted, int of) { setting.progress("causes fitted", fitted, of); });
     for (const LawAccount* account : these) done.insert(account->members.front());
+    // What no fit and no scales can be found for is no account.
+    std::erase_if(out.accounts, [&](const LawAccount& a) { return done.contains(a.members.front()) && !a.scored; });
+    if (out.accounts.empty()) return out;
     sort_accounts(out.accounts);
   }
   std::vector<LawAccount> sets;
@@ -345,6 +402,7 @@ LawSearch search_by_law(const LawSetting& setting, const Fit& base) {
   look_beside_leader(setting, out);
   fit_alone_from_sets(setting, out);
   sort_accounts(out.accounts);
+  fit_without_opened(setting, out);
   return out;
 }
 

@@ -45,10 +45,12 @@ struct LawAccount {
   LawEvidence evidence;
   LawHypothesis hypothesis;  ///< as it was scored, at the base or, if refined, in `system`
   std::vector<Cause> causes;
-  double effect = 0.0;  ///< RMS change of frequencies, ln
-  bool scored = false;  ///< at the mode of its own scales
-  Fit with;             ///< the fit with the causes in the model, made() if refined
+  Eigen::VectorXd across;  ///< of one cause that is a factor: coordinates of the best magnitude on the other side of one
+  double effect = 0.0;     ///< RMS change of frequencies, ln
+  bool scored = false;     ///< at the mode of its own scales
+  Fit with;                ///< the fit with the causes in the model, made() if refined
   std::shared_ptr<const LawSystem> system;
+  std::vector<int> opened;  ///< measured modes that are none of the model's by its evidence
   [[nodiscard]] bool refined() const { return system != nullptr; }
 };
 
@@ -56,7 +58,8 @@ struct LawSearch {
   Fit base;
   bool weighed = true;  ///< false: the columns at the base are too large for 16 digits
   LawSystem system;     ///< at the base, with the signatures of all entries at all their magnitudes
-  LawEvidence none;
+  LawEvidence none;     ///< at the base, its modes as they are paired there: what the screen is held against
+  LawAccount nothing;   ///< no cause, its modes none of the model's where that has more evidence
   std::vector<LawEvidence> something_else;  ///< (n_contrasts)
   std::vector<double> else_weight;          ///< ln evidence, prior odds 1
   std::vector<LawEntry> entries;

@@ -52,7 +52,7 @@ VectorXd springs_of(const Examined& e, const diagnosis::Fit& fit) {
 void expect_first_fit_is_that_of(const Chain& chain, const FeatureSet& both, const FeatureSet& one) {
   const Examined all = examine(chain, both, catalogue({"gain"})),
                  alone = examine(chain, none_held_out(one), catalogue({"gain"}));
-  const VectorXd found = springs_of(all, diagnosis::first_fit(*all.inference));
+  const VectorXd found = springs_of(all, diagnosis::first_fit(*all.inference, *all.inference));
   const VectorXd expected = springs_of(alone, alone.inference->fit({}, {}));
   ASSERT_EQ(found.size(), chain.structure().system->parameters.size());
   EXPECT_LT((found - expected).norm(), 0.02 * expected.norm());

@@ -110,6 +110,35 @@ TEST(DiagnoseByLaw, AMeasuredModeThatIsNoneOfTheModelsDecidesNothingAndIsTold) {
   for (const int row : sound.before.all.open) EXPECT_EQ(sound.before.all.jacobian.row(row).cwiseAbs().maxCoeff(), 0.0) << row;
 }
 
+/// The shape of one mode partly another one's: near enough to be paired, far beyond any error of the model.
+diagnosis::FeatureSet with_a_hybrid(const Chain& chain, const ChainTruth& truth, std::mt19937_64& random) {
+  diagnosis::FeatureSet f = no_row_held_out(chain.measure(truth, &random));
+  for (auto& row : f.rows)
+    if (row.type == diagnosis::RowType::shape && row.mode == "5") row.value += row.channel % 3 == 0 ? 0.35 : -0.2;
+  return f;
+}
+
+TEST(DiagnoseByLaw, AModeOfWhichTheShapeIsWhollyOffDecidesNothing) {
+  const Chain chain({.masses = 10, .modes = 8});
+  std::mt19937_64 random(11);
+  const auto sound = by_law(examine(chain, with_a_hybrid(chain, chain.scattered(random), random), catalogue()));
+  EXPECT_EQ(sound.verdict, diagnosis::Verdict::none) << sound.message;
+  ASSERT_TRUE(sound.form);
+  const auto tells = [](const std::string& warning) { return warning.find("is the measured mode 5 (") != std::string::npos; };
+  EXPECT_TRUE(std::any_of(sound.form->warnings.begin(), sound.form->warnings.end(), tells));
+  for (const auto& scale : sound.form->classes) EXPECT_LT(scale.scale.level, 0.03) << scale.name;
+}
+
+TEST(DiagnoseByLaw, ACauseIsFoundBesideAModeOfWhichTheShapeIsWhollyOff) {
+  const Chain chain({.masses = 10, .modes = 8});
+  std::mt19937_64 random(12);
+  ChainTruth truth = chain.scattered(random);
+  truth.gain[3] = 0.5;
+  const auto result = by_law(examine(chain, with_a_hybrid(chain, truth, random), catalogue({"gain", "pol", "mass"})));
+  EXPECT_EQ(result.effects.size(), 1U) << result.message;
+  EXPECT_TRUE(is_in_a_set(result, "gain@channel:c4"));
+}
+
 TEST(DiagnoseByLaw, SaysWhereTheModelHasNoneOfTheModes) {
   const Chain chain({.masses = 10, .modes = 2});
   std::mt19937_64 random(5);

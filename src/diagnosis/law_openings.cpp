@@ -1,0 +1,131 @@
+#include "diagnosis/law_openings.hpp"
+
+#include <Eigen/Cholesky>
+#include <algorithm>
+#include <map>
+#include <utility>
+
+#include "linalg/dense.hpp"
+
+namespace twindeck::diagnosis {
+
+namespace {
+
+using Eigen::Index;
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+/// Rows of a measured mode among the training rows, and their variance if it is none of the model's.
+struct OpenRows {
+  int mode = 0;
+  std::vector<int> rows;
+  VectorXd variance;
+};
+
+std::vector<OpenRows> modes_that_may_open(const Inference& plain, const LawSystem& system) {
+  const FeatureMap& map = plain.map();
+  std::map<int, int> position;
+  for (const int row : plain.training()) position.try_emplace(row, static_cast<int>(std::ssize(position)));
+  std::vector<OpenRows> out;
+  for (std::size_t m = 0; m < map.measured_modes().size(); ++m) {
+    const MeasuredMode& mode = map.measured_modes()[m];
+    if (mode.real_rows.size() < 2 || !position.contains(mode.real_rows.front())) continue;  // no shape tells it from others
+    const VectorXd all = variance_of_open(map, mode);
+    OpenRows open{static_cast<int>(m), {}, {}};
+    for (const auto& [row, at] : position)
+      if (all[row] > 0.0) open.rows.push_back(at);
+    open.variance.resize(std::ssize(open.rows));
+    for (const auto& [row, at] : position)
+      if (const auto here = std::find(open.rows.begin(), open.rows.end(), at); here != open.rows.end())
+        open.variance[here - open.rows.begin()] = all[row];
+    const bool is_open = (system.sigma.diagonal()(open.rows).array() > open.variance.array()).all();
+    if (!is_open) out.push_back(std::move(open));
+  }
+  return out;
+}
+
+double log_density(const VectorXd& e, const MatrixXd& covariance) {
+  const MatrixXd lower = linalg::cholesky_factor(covariance);
+  if (lower.size() == 0) return -1e300;
+  return -0.5 * linalg::lower_solve(lower, e).squaredNorm() - lower.diagonal().array().log().sum();
+}
+
+/// What each mode gains by being open at these scales, those that gain nothing left out, the best first. A mode's rows are held
+/// against what all other rows predict of them.
+std::vector<std::pair<double, int>> gains_of_opening(const LawSystem& system, const LawHypothesis& hypothesis,
+                                                     const LawEvidence& at, const std::vector<OpenRows>& modes) {
+  MatrixXd sigma = system.sigma;
+  for (std::size_t c = 0; c < system.classes.size(); ++c)
+    if (const double tau = at.tau[static_cast<Index>(c)]; tau > 0.0)
+      sigma += tau * tau * linalg::product(system.classes[c], system.classes[c].transpose());
+  const MatrixXd lower = linalg::cholesky_factor(std::move(sigma));
+  std::vector<std::pair<double, int>> out;
+  if (lower.size() == 0) return out;
+  const MatrixXd precision = linalg::inverse_of_factored(lower);
+  Index best = 0;
+  at.weight.maxCoeff(&best);
+  VectorXd left = hypothesis.left.col(best);
+  if (hypothesis.slopes.cols() > 0) left -= hypothesis.slopes * at.shift;
+  const VectorXd weighed = precision * left;
+  for (std::size_t k = 0; k < modes.size(); ++k) {
+    const OpenRows& open = modes[k];
+    const auto n = std::ssize(open.rows);
+    const MatrixXd covariance = precision(open.rows, open.rows).ldlt().solve(MatrixXd::Identity(n, n));
+    const VectorXd e = covariance * weighed(open.rows);
+    const double gain =
+        log_density(e, covariance + MatrixXd(open.variance.asDiagonal())) - log_density(e, covariance) + log_prior_of_open();
+    if (gain > 0.0) out.emplace_back(gain, static_cast<int>(k));
+  }
+  std::sort(out.rbegin(), out.rend());
+  return out;
+}
+
+}  // namespace
+
+Fit fit_with_open(const Inference& inference, const std::vector<int>& modes, const std::vector<Cause>& causes,
+                  const VectorXd& start) {
+  FeatureMap map = inference.map();
+  VectorXd variance = VectorXd::Zero(map.values().size());
+  for (const int m : modes) variance += variance_of_open(map, map.measured_modes()[static_cast<std::size_t>(m)]);
+  map.add_covariance(variance.asDiagonal());
+  return Inference(map, inference.candidates()).fit(causes, start);
+}
+
+OpenedEvidence scored_with_openings(const Inference& plain, LawSystem& system, const LawHypothesis& hypothesis,
+                                    const VectorXd& start) {
+  OpenedEvidence out;
+  if (const OneLaw law(system); law.sound()) out.evidence = law.scored(hypothesis, start);
+  std::vector<OpenRows> modes = modes_that_may_open(plain, system);
+  bool more = out.evidence.weight.size() > 0;
+  while (more) {
+    more = false;
+    const auto gains = gains_of_opening(system, hypothesis, out.evidence, modes);
+    // All that gain by themselves, or else the one that gains most: two that explain each other need not both be open.
+    for (std::size_t count = gains.size(); count > 0 && !more; count = count > 1 ? 1 : 0) {
+      const VectorXd before = system.sigma.diagonal();
+      const double prior = system.log_prior;
+      for (std::size_t k = 0; k < count; ++k) {
+        const OpenRows& open = modes[static_cast<std::size_t>(gains[k].second)];
+        for (std::size_t r = 0; r < open.rows.size(); ++r)
+          system.sigma(open.rows[r], open.rows[r]) += open.variance[static_cast<Index>(r)];
+        system.log_prior += log_prior_of_open();
+      }
+      LawEvidence evidence;
+      if (const OneLaw law(system); law.sound()) evidence = law.scored(hypothesis, out.evidence.tau);
+      more = evidence.weight.size() > 0 && evidence.log_evidence > out.evidence.log_evidence;
+      if (!more) {
+        system.sigma.diagonal() = before;
+        system.log_prior = prior;
+        continue;
+      }
+      out.evidence = std::move(evidence);
+      std::vector<int> now;
+      for (std::size_t k = 0; k < count; ++k) now.push_back(modes[static_cast<std::size_t>(gains[k].second)].mode);
+      out.opened.insert(out.opened.end(), now.begin(), now.end());
+      std::erase_if(modes, [&](const OpenRows& m) { return std::find(now.begin(), now.end(), m.mode) != now.end(); });
+    }
+  }
+  return out;
+}
+
+}  // namespace twindeck::diagnosis
