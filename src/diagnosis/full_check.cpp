@@ -45,8 +45,9 @@ template <typename Matrix, typename OnePlace>
 struct Assembly {
   Matrix stiffness, mass;
   const std::map<std::string, std::vector<OnePlace>>& sets;
-  const VectorXd& theta;           ///< values of the parameters
-  const std::vector<int> columns;  ///< of the reduced basis that are used
+  const VectorXd& theta;                             ///< values of the parameters
+  const std::vector<int> columns;                    ///< of the reduced basis that are used
+  std::map<const OnePlace*, double> own_error = {};  ///< of bearings, foundations and stays, of their stiffness
 
   /// The place of a candidate, in the set of its hypothesis or else in any: a support and its foundation have one name.
   [[nodiscard]] const OnePlace* find(const Candidate& candidate, std::size_t which) const {
@@ -80,7 +81,12 @@ struct Assembly {
       if (v.kind == Nuisance::Kind::element_stiffness) add(stiffness, amount, place("zones", v.index).stiffness);
       if (v.kind == Nuisance::Kind::element_mass) add(mass, amount, place("zones", v.index).mass);
       if (v.kind == Nuisance::Kind::node_mass) add(mass, amount, place("nodes", v.index).mass);
-      if (v.kind == Nuisance::Kind::stay) add(stiffness, amount, place("stays", v.index).stiffness);
+      for (const auto& [kind, set] : {std::pair(Nuisance::Kind::stay, "stays"), std::pair(Nuisance::Kind::support, "supports"),
+                                      std::pair(Nuisance::Kind::foundation, "foundations")}) {
+        if (v.kind != kind) continue;
+        add(stiffness, amount, place(set, v.index).stiffness);
+        own_error[&place(set, v.index)] = amount;
+      }
     }
   }
   void apply(const Cause& cause) {
@@ -93,7 +99,11 @@ struct Assembly {
       if (!structural) continue;
       TWINDECK_ASSERT(place != nullptr);
       const auto value = [&](const char* name) { return candidate.value(action.number.at(name), cause.a); };
-      if (action.kind == "scale.stiffness") add(stiffness, value("factor") - 1.0, place->stiffness, place->stiffness_law);
+      if (action.kind == "scale.stiffness") {
+        add(stiffness, value("factor") - 1.0, place->stiffness, place->stiffness_law);
+        if (const auto own = own_error.find(place); own != own_error.end())
+          add(stiffness, (value("factor") - 1.0) * own->second, place->stiffness);
+      }
       if (action.kind == "scale.mass") add(mass, value("factor") - 1.0, place->mass, place->mass_law);
       if (action.kind == "mass.add")
         for (Index d = 0; d < place->directions.cols(); ++d)
@@ -110,6 +120,8 @@ struct Assembly {
   /// Takes the support away and puts its springs up again between the nodes where it stands.
   void move(const OnePlace& place, double position) {
     add(stiffness, -1.0, place.stiffness, place.stiffness_law);
+    for (const auto& [own, amount] : own_error)
+      if (own->id == place.id) add(stiffness, -amount, own->stiffness);
     const double ratio = place.stiffness_law.ratio.value(theta);
     const auto [station, part] = on_line(place.attributes, position);
     const Index springs = place.directions.cols() / static_cast<Index>(place.attributes.at("stations"));

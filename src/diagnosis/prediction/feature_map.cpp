@@ -184,6 +184,14 @@ void FeatureMap::list_nuisances(const ScatterOptions& scatter) {
     add(Nuisance::Kind::stay, i, p.id + " stiffness", 0.0, scatter.fine * scatter.stay_stiffness);
     if (stay_rows.contains(p.id.substr(5))) add(Nuisance::Kind::stay_pull, i, p.id + " pull", 0.0, scatter.stay_pull);
   });
+  const auto bearing = [&](Nuisance::Kind kind) {
+    return [&, kind](int i, const ReducedPlace& p) {  // what stands for a rigid support has no size of its own
+      if (const auto high = p.attributes.find("f_high"); high == p.attributes.end() || high->second > 1.0)
+        add(kind, i, p.id + " stiffness", 0.0, scatter.fine * scatter.support_stiffness);
+    };
+  };
+  each("supports", bearing(Nuisance::Kind::support));
+  each("foundations", bearing(Nuisance::Kind::foundation));
   std::map<int, bool> channels;
   std::map<int, bool> levels;
   for (const Row& row : features_.rows) {
@@ -254,6 +262,8 @@ FeatureMap::Base FeatureMap::base(const Eigen::VectorXd& x) const {
     if (v.kind == Nuisance::Kind::element_mass) base.mass_parts.emplace_back(amount, &place("zones").mass);
     if (v.kind == Nuisance::Kind::node_mass) base.mass_parts.emplace_back(amount, &place("nodes").mass);
     if (v.kind == Nuisance::Kind::stay) base.stiffness_parts.emplace_back(amount, &place("stays").stiffness);
+    if (v.kind == Nuisance::Kind::support) base.stiffness_parts.emplace_back(amount, &place("supports").stiffness);
+    if (v.kind == Nuisance::Kind::foundation) base.stiffness_parts.emplace_back(amount, &place("foundations").stiffness);
   }
   const Index c = model_.common;
   const auto sum =

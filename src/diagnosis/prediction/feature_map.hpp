@@ -17,7 +17,9 @@ namespace twindeck::diagnosis {
 
 /// Standard deviations of the element scatter (small errors of every model), and floors of identification errors.
 struct ScatterOptions {
-  double element_stiffness = 0.03, element_mass = 0.02, node_mass = 0.02, stay_stiffness = 0.03, stay_pull = 0.10, gain = 0.01;
+  double element_stiffness = 0.03, element_mass = 0.02, node_mass = 0.02, stay_stiffness = 0.03, stay_pull = 0.10, gain = 0.01,
+         support_stiffness =
+             0.10;  ///< of each bearing or foundation: EN 1337-3 accepts elastomeric bearings within 20 %, two deviations
   double frequency_floor = 0.001, damping_floor = 0.05, shape_floor = 0.01;  ///< relative; of the shape's largest value
   double load_model = 0.10;  ///< of RMS values, on ln: uncertainty of a simple load model
   double model_form =
@@ -30,7 +32,19 @@ struct ScatterOptions {
 
 /// A nuisance unknown in units of its prior: mean 0, deviation 1.
 struct Nuisance {
-  enum class Kind { parameter, element_stiffness, element_mass, node_mass, stay, stay_pull, gain, mode_damping, level };
+  enum class Kind {
+    parameter,
+    element_stiffness,
+    element_mass,
+    node_mass,
+    stay,
+    stay_pull,
+    support,
+    foundation,
+    gain,
+    mode_damping,
+    level
+  };
   Kind kind = Kind::parameter;
   int index = 0;     ///< of the parameter, place, channel; of `damping_modes`; of the level
   std::string name;  ///< "E_s", "element:17 stiffness", "mode 3 damping", for tables

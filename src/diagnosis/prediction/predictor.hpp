@@ -27,6 +27,7 @@ struct SolvedState {
     const ReducedMatrix* part = nullptr;  ///< null where it is a spring
     bool mass = false;
     Eigen::VectorXd spring;  ///< (n) b of the part b b', a spring of a support that was moved
+    int nuisance = -1;       ///< the part goes with this unknown, not with a parameter
   };
   std::vector<Followed> followed;
 };

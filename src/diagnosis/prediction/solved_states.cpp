@@ -176,6 +176,10 @@ const StateStore::Changes& Predictor::changes(const SolvedState& state) const {
       add(dm, v.deviation, place("nodes").mass);
     } else if (v.kind == Nuisance::Kind::stay) {
       add(dk, v.deviation, place("stays").stiffness);
+    } else if (v.kind == Nuisance::Kind::support) {
+      add(dk, v.deviation, place("supports").stiffness);
+    } else if (v.kind == Nuisance::Kind::foundation) {
+      add(dk, v.deviation, place("foundations").stiffness);
     } else {
       continue;
     }
@@ -228,8 +232,9 @@ MatrixXd Predictor::changed(const SolvedState& state, bool mass, const MatrixXd&
     else
       part = sliced(*followed.part, state.columns, x.rows()) * x;
     for (Index j = 0; j < count; ++j) {
-      const Nuisance& v = map_.nuisances()[static_cast<std::size_t>(change.position[static_cast<std::size_t>(j)])];
-      if (v.kind != Nuisance::Kind::parameter || v.index != followed.parameter) continue;
+      const int position = change.position[static_cast<std::size_t>(j)];
+      const Nuisance& v = map_.nuisances()[static_cast<std::size_t>(position)];
+      if (followed.nuisance != position && (v.kind != Nuisance::Kind::parameter || v.index != followed.parameter)) continue;
       for (Index p = 0; p < x.cols(); ++p) out.col(p * count + j) += v.deviation * followed.amount * part.col(p);
     }
   }

@@ -66,6 +66,8 @@ io::FieldTable DiagnosisConfig::fields() {
       .number("scatter.node_mass", scatter.node_mass, "", io::non_negative(), "of the mass at a node of a matrix model")
       .number("scatter.stay_stiffness", scatter.stay_stiffness, "", io::non_negative(), "of a stay's stiffness")
       .number("scatter.stay_pull", scatter.stay_pull, "", io::non_negative(), "of a stay's pull")
+      .number("scatter.support_stiffness", scatter.support_stiffness, "", io::non_negative(),
+              "of the stiffness of each bearing and foundation")
       .number("scatter.gain", scatter.gain, "", io::non_negative(), "of a channel's gain")
       .number("scatter.frequency_floor", scatter.frequency_floor, "", io::non_negative(),
               "least relative deviation of a frequency")
