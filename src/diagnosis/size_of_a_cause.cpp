@@ -14,8 +14,9 @@ constexpr double kOnLowerBound = 1e-3;
 }  // namespace
 
 bool may_be_zero(const std::vector<EffectParameter>& parameters, const Candidate& candidate) {
-  if (parameters.size() != 1 || !is_a_size(candidate) || candidate.log[0] || candidate.hypothesis->unknowns[0].name == "factor")
-    return false;
+  if (parameters.size() != 1) return false;
+  if (candidate.hypothesis->unknowns[0].name == "factor") return parameters[0].low < 1.0 && parameters[0].high > 1.0;
+  if (!is_a_size(candidate) || candidate.log[0]) return false;
   const bool either_sign = candidate.low[0] < 0.0 && candidate.high[0] > 0.0;
   return either_sign && parameters[0].low < 0.0 && parameters[0].high > 0.0;
 }

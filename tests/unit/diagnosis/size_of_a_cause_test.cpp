@@ -73,6 +73,22 @@ TEST(MayBeZero, IsAnIntervalOfEitherSignThatHoldsZero) {
   EXPECT_FALSE(may_be_zero(interval(-1.0, 4.0), candidate));
 }
 
+TEST(MayBeZero, IsAFactorWhoseIntervalHoldsOne) {
+  diagnosis::Hypothesis hypothesis;
+  hypothesis.unknowns = {{"factor", "-", {}, {}, true, {}}};
+  Candidate candidate;
+  candidate.hypothesis = &hypothesis;
+  candidate.low = Eigen::VectorXd::Constant(1, std::log(0.05));
+  candidate.high = Eigen::VectorXd::Constant(1, std::log(20.0));
+  candidate.log = {true};
+  const auto interval = [](double low, double high) {
+    return std::vector<diagnosis::EffectParameter>{{"factor", "-", std::sqrt(low * high), low, high, false, false}};
+  };
+  EXPECT_TRUE(may_be_zero(interval(0.93, 1.05), candidate));
+  EXPECT_FALSE(may_be_zero(interval(0.90, 0.97), candidate));
+  EXPECT_FALSE(may_be_zero(interval(1.2, 1.9), candidate));
+}
+
 TEST(ObjectionToSize, SaysWhichOfTheTwoItIs) {
   const Oscillator oscillator;
   EXPECT_EQ(diagnosis::objection_to_size(oscillator.of(100.0, 20.0), {}), "");
