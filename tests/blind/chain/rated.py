@@ -1,7 +1,7 @@
 """How an answer of step 9 is held against what was hidden.
 
 A hidden cause is found where the set of an effect holds an entry of its family at its place: the same group, spring, node or channel, or a part whose middle lies within a
-tenth of the structure's length. Causes whose effect is below six are not asked for; to name one is right all the same.
+tenth of the structure's length. A parameter's group of springs is the place of causes that together are all of its springs. Causes whose effect is below six are not asked for; to name one is right all the same.
 
     right     every visible cause is found, and every effect has found one
     part      two causes, one found, and every effect has found one
@@ -10,6 +10,7 @@ tenth of the structure's length. Causes whose effect is below six are not asked 
 """
 import csv
 import pathlib
+import tomllib
 
 import numpy as np
 
@@ -36,6 +37,8 @@ class Places:
         self.elements = {r["element"]: (r["group"], [r["node1"], r["node2"]]) for r in rows("elements.csv")}
         self.springs = {r["spring"]: r["node"] for r in rows("springs.csv")}
         self.supports = {r["support"]: r["node"] for r in rows("supports.csv")}
+        with open(pathlib.Path(model) / "model.toml", "rb") as stream:
+            self.parameters = {p["name"]: set(p["of"]) for p in tomllib.load(stream).get("parameter", [])}
 
     def middle(self, location):
         """None: the location is nowhere (global, a mode, a channel)."""
@@ -59,10 +62,14 @@ class Places:
         return {names} | set(names.split(",")) | ({self.elements[names][0]} if kind == "element" and names in self.elements else set())
 
 
-def is_found(cause, entry, places, length):
+def is_found(cause, entry, places, length, hidden):
+    """hidden: places of all causes"""
     family, _, location = entry.partition("@")
     if family not in FAMILIES[cause.kind]:
         return False
+    group = places.parameters.get(location.partition(":")[2], set()) & set(places.springs)
+    if cause.kind == "bearing" and cause.place in group:
+        return group <= hidden
     if cause.kind == "temperature" or cause.place in places.names(location):
         return True
     if cause.kind in ("polarity", "gain", "swap"):
@@ -77,10 +84,10 @@ def rate(answer, causes, places, length):
     visible = [cause for cause in causes if cause.sigma >= VISIBLE_SIGMA]
     if answer["verdict"] in ("none", "unknown"):
         return answer["verdict"], 0
-    found = set()
+    found, hidden = set(), {cause.place for cause in causes}
     for effect in answer["effects"]:
         entries = [f"{effect['cause']}@{effect['location']}", *effect.get("cluster", [])]
-        here = {i for i, cause in enumerate(causes) if any(is_found(cause, entry, places, length) for entry in entries)}
+        here = {i for i, cause in enumerate(causes) if any(is_found(cause, entry, places, length, hidden) for entry in entries)}
         if not here:
             return "wrong", 0
         found |= here
