@@ -3,8 +3,8 @@
 ///   second.
 #include "model_io/matrix_model.hpp"
 
+#include "matrix_io/matrix_market.hpp"
 #include "model_io/export_matrices.hpp"
-#include "model_io/matrix_market.hpp"
 #include "model_io/read_model.hpp"
 #include "model_io/write_matrix_model.hpp"
 #include "test_folder.hpp"
@@ -129,8 +129,8 @@ TEST(MatrixModel, ExportedMatricesAreThoseOfTheParameters) {
   const fe::ParametricSystem system = read_matrix_model(folder.path());
   const Eigen::Vector2d theta(3.0, 0.0);
   write_matrices(system, theta, folder.path() / "out");
-  EXPECT_EQ(dense(read_matrix_market(folder.path() / "out/K.mtx")), dense(system.stiffness(theta)));
-  EXPECT_EQ(dense(read_matrix_market(folder.path() / "out/M.mtx")), dense(system.mass(theta)));
+  EXPECT_EQ(dense(matrix_io::read_matrix_market(folder.path() / "out/K.mtx")), dense(system.stiffness(theta)));
+  EXPECT_EQ(dense(matrix_io::read_matrix_market(folder.path() / "out/M.mtx")), dense(system.mass(theta)));
   EXPECT_EQ(folder.read("out/dofs.csv"), folder.read("dofs.csv"));
 }
 

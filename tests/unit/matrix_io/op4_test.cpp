@@ -1,6 +1,6 @@
 /// Oracle: a matrix written out by hand in each of the three forms of OUTPUT4, whose numbers are integers that text holds
 /// exactly.
-#include "model_io/op4.hpp"
+#include "matrix_io/op4.hpp"
 
 #include <fmt/format.h>
 
@@ -8,12 +8,15 @@
 #include <cstdint>
 #include <initializer_list>
 
-#include "model_io/matrix_market.hpp"
+#include "matrix_io/matrix_market.hpp"
 #include "model_io/matrix_model.hpp"
-#include "test_folder.hpp"
+#include "unit/model_io/test_folder.hpp"
 
-namespace twindeck::model_io::test {
+namespace twindeck::matrix_io::test {
 namespace {
+
+using model_io::test::message_of;
+using model_io::test::TestFolder;
 
 const std::string op4_header = "       3       3       6       2KGG     1P,3E23.16\n";
 const std::string op4_end = "       4       1       1\n 1.0000000000000000E+00\n";
@@ -214,4 +217,4 @@ TEST(Op4, RefusalsNameTheirLine) {
 }
 
 }  // namespace
-}  // namespace twindeck::model_io::test
+}  // namespace twindeck::matrix_io::test
