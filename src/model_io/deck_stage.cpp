@@ -26,14 +26,20 @@ constexpr std::uint16_t rotations_of_first = 0b111000, rotations_of_second = 0b1
 
 const Eigen::Vector3d& stage_place(const fe::Model& model, int node) { return model.nodes[static_cast<std::size_t>(node)].x_m; }
 
-/// Area vectors ∫ N_i n dA of the facet's nodes, n of the nodes' anticlockwise turn: three points a direction, exact for facets
-/// with straight edges. Corners first, then the nodes in the middles of 1-2, 2-3, …
-std::vector<Eigen::Vector3d> area_vectors(const fe::Model& model, const std::vector<int>& nodes) {
+/// Of each node of a facet: its area vector ∫ N_i n dA and its area ∫ N_i dA, which is negative at the corners of eight nodes.
+struct FacetAreas {
+  std::vector<Eigen::Vector3d> vector;
+  std::vector<double> size;
+};
+
+/// Corners first, then the nodes in the middles of 1-2, 2-3, …; n points to where they run anticlockwise. Three points a
+/// direction: exact for facets with straight edges.
+FacetAreas facet_areas(const fe::Model& model, const std::vector<int>& nodes) {
   const std::size_t n = nodes.size();
   const bool triangle = n % 3 == 0;
   const double outer = std::sqrt(0.6);
   const std::array<double, 3> at = {-outer, 0.0, outer}, weight = {5.0 / 9.0, 8.0 / 9.0, 5.0 / 9.0};
-  std::vector<Eigen::Vector3d> area(n, Eigen::Vector3d::Zero());
+  FacetAreas area{std::vector<Eigen::Vector3d>(n, Eigen::Vector3d::Zero()), std::vector<double>(n, 0.0)};
   std::array<double, 8> share{};
   std::array<Eigen::Vector2d, 8> slope;
   for (std::size_t i = 0; i < 3; ++i)
@@ -46,7 +52,11 @@ std::vector<Eigen::Vector3d> area_vectors(const fe::Model& model, const std::vec
         along_s += slope[k][1] * stage_place(model, nodes[k]);
       }
       const double w = weight[i] * weight[j] * (triangle ? 0.25 * (1.0 - r) : 1.0);
-      for (std::size_t k = 0; k < n; ++k) area[k] += w * share[k] * along_r.cross(along_s);
+      const Eigen::Vector3d normal = along_r.cross(along_s);
+      for (std::size_t k = 0; k < n; ++k) {
+        area.vector[k] += w * share[k] * normal;
+        area.size[k] += w * share[k] * normal.norm();
+      }
     }
   return area;
 }
@@ -210,13 +220,13 @@ void DeckStage::press_solid(const DeckPlace& at, long id, std::size_t face, doub
 }
 
 void DeckStage::press(const std::vector<int>& nodes, double pressure) {
-  const std::vector<Eigen::Vector3d> area = area_vectors(model_, nodes);
-  for (std::size_t i = 0; i < nodes.size(); ++i) load(nodes[i], -pressure * area[i]);
+  const FacetAreas area = facet_areas(model_, nodes);
+  for (std::size_t i = 0; i < nodes.size(); ++i) load(nodes[i], -pressure * area.vector[i]);
 }
 
 void DeckStage::draw(const std::vector<int>& nodes, const Eigen::Vector3d& direction, double traction) {
-  const std::vector<Eigen::Vector3d> area = area_vectors(model_, nodes);
-  for (std::size_t i = 0; i < nodes.size(); ++i) load(nodes[i], traction * area[i].norm() * direction);
+  const FacetAreas area = facet_areas(model_, nodes);
+  for (std::size_t i = 0; i < nodes.size(); ++i) load(nodes[i], traction * area.size[i] * direction);
 }
 
 void DeckStage::strain(const DeckPlace& at, long id, double value, bool is_stress) {
