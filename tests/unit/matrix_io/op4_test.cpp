@@ -9,7 +9,6 @@
 #include <initializer_list>
 
 #include "matrix_io/matrix_market.hpp"
-#include "model_io/matrix_model.hpp"
 #include "unit/model_io/test_folder.hpp"
 
 namespace twindeck::matrix_io::test {
@@ -178,19 +177,6 @@ TEST(Op4, DamagedBinaryFilesNameTheirByte) {
   twice.whole({3, 3, 6, 2}).name().end_record();
   twice.whole({1, 1, 2}).real({4.0}).end_record().whole({1, 1, 2}).real({4.0}).end_record();
   expect(twice.bytes(), "entry (1, 1) stands twice");
-}
-
-TEST(Op4, AMatrixModelTakesIt) {
-  const TestFolder folder;
-  folder.write("K.op4", op4_header + strings + op4_end);
-  folder.write("M.mtx", "%%MatrixMarket matrix coordinate real symmetric\n3 3 3\n1 1 1\n2 2 1\n3 3 1\n");
-  folder.write("dofs.csv", "dof,node,direction\n1,a,x\n2,b,x\n3,c,x\n");
-  folder.write("model.toml", "[matrices]\nK = \"K.op4\"\nM = \"M.mtx\"\n");
-  const fe::ParametricSystem system = read_matrix_model(folder.path());
-  EXPECT_EQ(system.stiffness(system.initial()).coeff(1, 0), -1.0);
-  folder.write("dofs.csv", "dof,node,direction\n1,a,x\n2,b,x\n");
-  const std::string message = message_of([&] { (void)read_matrix_model(folder.path()); });
-  EXPECT_NE(message.find("K.op4:1: is 3 x 3, but dofs.csv has 2 rows"), std::string::npos) << message;
 }
 
 TEST(Op4, RefusalsNameTheirLine) {
