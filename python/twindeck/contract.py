@@ -18,7 +18,7 @@ class Columns:
 MODEL = {
     "nodes": Columns("node x_m y_m z_m", key="node"),
     "elements": Columns("element type material section node1 node2",
-                        "name group node3 node4 node5 node6 node7 node8 section2 orientation_x orientation_y orientation_z offset1_x_m offset1_y_m "
+                        "name group " + " ".join(f"node{i}" for i in range(3, 21)) + " section2 orientation_x orientation_y orientation_z offset1_x_m offset1_y_m "
                         "offset1_z_m offset2_x_m offset2_y_m offset2_z_m releases pull_N free_strain",
                         texts="type material section name group section2", key="element", may_be_empty="section"),
     "materials": Columns("material youngs_modulus_Pa density_kg_m3", "shear_modulus_Pa poisson_ratio", texts="material", key="material"),

@@ -111,11 +111,50 @@ TetrahedronGeometry tetrahedron_geometry(const Model& model, const Element& elem
   return geometry;
 }
 
-Eigen::MatrixXd solid_stiffness_of(const Model& model, const Element& element) {
+QuadraticSolid quadratic_solid(const Model& model, const Element& element) {
+  QuadraticSolid solid;
+  for (const int node : element.nodes) solid.node_m.push_back(position(model, node));
+  return solid;
+}
+
+namespace {
+
+SolidProperties solid_properties(const Model& model, const Element& element) {
   const Material& m = material_of(model, element);
-  const SolidProperties properties{m.youngs_modulus_Pa, m.poisson_ratio};
+  return {m.youngs_modulus_Pa, m.poisson_ratio};
+}
+
+}  // namespace
+
+Eigen::MatrixXd solid_stiffness_of(const Model& model, const Element& element) {
+  const SolidProperties properties = solid_properties(model, element);
+  if (is_quadratic(element)) return quadratic_solid_stiffness(quadratic_solid(model, element), properties);
   if (is_tetrahedron(element)) return tetrahedron_stiffness(tetrahedron_geometry(model, element), properties);
   return solid_stiffness(solid_geometry(model, element), properties);
+}
+
+Eigen::MatrixXd solid_geometric_stiffness_of(const Model& model, const Element& element, const Eigen::VectorXd& displacement) {
+  const SolidProperties properties = solid_properties(model, element);
+  if (is_quadratic(element))
+    return quadratic_solid_geometric_stiffness(quadratic_solid(model, element), properties, displacement);
+  if (is_tetrahedron(element))
+    return tetrahedron_geometric_stiffness(tetrahedron_geometry(model, element), properties, displacement);
+  return solid_geometric_stiffness(solid_geometry(model, element), properties, displacement);
+}
+
+Eigen::MatrixXd solid_mass_of(const Model& model, const Element& element) {
+  const double density = material_of(model, element).density_kg_m3;
+  const bool lumped = model.formulation.lumped_mass;
+  if (is_quadratic(element)) {
+    const QuadraticSolid solid = quadratic_solid(model, element);
+    return lumped ? quadratic_solid_mass_lumped(solid, density) : quadratic_solid_mass(solid, density);
+  }
+  if (is_tetrahedron(element)) {
+    const TetrahedronGeometry four = tetrahedron_geometry(model, element);
+    return lumped ? tetrahedron_mass_lumped(four, density) : tetrahedron_mass(four, density);
+  }
+  const SolidGeometry geometry = solid_geometry(model, element);
+  return lumped ? solid_mass_lumped(geometry, density) : solid_mass(geometry, density);
 }
 
 std::vector<int> six_per_node(const Element& element) { return dofs_per_node(element, 6); }
@@ -162,14 +201,8 @@ ElementMatrix element_mass(const Model& model, const Element& element) {
       const double rotary = model.formulation.shell_rotary_inertia ? density * t * t * t / 12.0 : 0.0;
       return shell_mass_of(model, element, density * t, rotary);
     }
-    case ElementType::solid: {
-      if (is_tetrahedron(element)) {
-        const TetrahedronGeometry four = tetrahedron_geometry(model, element);
-        return {three_per_node(element), lumped ? tetrahedron_mass_lumped(four, density) : tetrahedron_mass(four, density)};
-      }
-      const SolidGeometry geometry = solid_geometry(model, element);
-      return {three_per_node(element), lumped ? solid_mass_lumped(geometry, density) : solid_mass(geometry, density)};
-    }
+    case ElementType::solid:
+      return {three_per_node(element), solid_mass_of(model, element)};
   }
   TWINDECK_ASSERT(false);
   return {};

@@ -8,6 +8,7 @@
 #include "fe/model.hpp"
 #include "fe/shell_triangle.hpp"
 #include "fe/solid.hpp"
+#include "fe/solid_quadratic.hpp"
 #include "fe/tetrahedron.hpp"
 
 /// Converts the model's data to the arguments of the element functions. Gives each matrix its positions in the whole.
@@ -39,12 +40,22 @@ struct ElementMatrix {
 [[nodiscard]] inline bool is_tetrahedron(const Element& element) {
   return element.type == ElementType::solid && element.nodes.size() == 4;
 }
+/// Whether a solid has nodes in the middles of its edges.
+[[nodiscard]] inline bool is_quadratic(const Element& element) {
+  return element.type == ElementType::solid && (element.nodes.size() == 10 || element.nodes.size() == 20);
+}
+/// @pre ten or twenty nodes
+[[nodiscard]] QuadraticSolid quadratic_solid(const Model& model, const Element& element);
 /// @pre eight nodes
 [[nodiscard]] SolidGeometry solid_geometry(const Model& model, const Element& element);
 /// @pre four nodes
 [[nodiscard]] TetrahedronGeometry tetrahedron_geometry(const Model& model, const Element& element);
-/// Stiffness of a solid of four or eight nodes, over its three degrees of freedom a node.
+/// Stiffness of a solid of four, eight, ten or twenty nodes, over its three degrees of freedom a node.
 [[nodiscard]] Eigen::MatrixXd solid_stiffness_of(const Model& model, const Element& element);
+/// Geometric stiffness of its stresses under `displacement` (3 a node, global axes), and its mass, over the same.
+[[nodiscard]] Eigen::MatrixXd solid_geometric_stiffness_of(const Model& model, const Element& element,
+                                                           const Eigen::VectorXd& displacement);
+[[nodiscard]] Eigen::MatrixXd solid_mass_of(const Model& model, const Element& element);
 /// Membrane part of a shell of three or four nodes, the drilling of the formulation's rule included (spread over the corners
 /// where the rule is diagonal); bending part. Over its six degrees of freedom a node.
 /// @param straight_sides  of this element, from sides_beside_four_nodes (mixed_sides.hpp); used for triangles only

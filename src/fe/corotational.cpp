@@ -103,6 +103,7 @@ FrameState triangle_frame(const std::vector<Eigen::Vector3d>& x) {
   return f;
 }
 
+/// Of the eight corners; the nodes on edges do not turn the frame.
 FrameState box_frame(const std::vector<Eigen::Vector3d>& x) {
   constexpr std::array<double, 8> along = {-1, 1, 1, -1, -1, 1, 1, -1}, across = {-1, -1, 1, 1, -1, -1, 1, 1};
   Eigen::Vector3d a = Eigen::Vector3d::Zero(), b = a;
@@ -111,7 +112,7 @@ FrameState box_frame(const std::vector<Eigen::Vector3d>& x) {
   f.axes = axes_of(a, b);
   const Eigen::Vector3d local = f.axes.transpose() * b;
   const TwoVectors vectors{a.norm(), local.x(), local.y()};
-  f.spin = Spin::Zero(3, 48);
+  f.spin = Spin::Zero(3, 6 * static_cast<Eigen::Index>(x.size()));
   for (int i = 0; i < 8; ++i) {
     const auto s = static_cast<std::size_t>(i);
     f.spin.block<3, 3>(0, 6 * i) = 0.25 * (along[s] * vectors.from_a() + across[s] * vectors.from_b());

@@ -24,8 +24,8 @@ enum class Frame {
   chord,     ///< 2 points: along the chord, turned about it by the mean twist of both ends
   quad,      ///< 4 points: normal to both diagonals, first axis along their difference (as shell_frame.hpp)
   triangle,  ///< 3 points: normal to the plane through them, first axis along 1-2
-  corner,    ///< 4 points: first axis along 1-2, plane of 1-2-3
-  box        ///< 8 points: along the mean of the four edges 1-2, plane of the mean of the edges 1-4
+  corner,    ///< 4 or 10 points: first axis along 1-2, plane of 1-2-3
+  box        ///< 8 or 20 points: along the mean of the four edges 1-2, plane of the mean of the edges 1-4
 };
 
 struct Element {

@@ -141,7 +141,8 @@ void MovingStructure::add_part(int i, const Eigen::VectorXd& stay_pull_N) {
     part.linear.frame = is_triangle(e) ? corotational::Frame::triangle : corotational::Frame::quad;
     part.linear.stiffness = shell_stiffness(model_, e, straight_sides_[slot(i)]);
   } else if (e.type == ElementType::solid) {
-    part.linear.frame = is_tetrahedron(e) ? corotational::Frame::corner : corotational::Frame::box;
+    const bool hexahedron = e.nodes.size() == 8 || e.nodes.size() == 20;
+    part.linear.frame = hexahedron ? corotational::Frame::box : corotational::Frame::corner;
     part.linear.stiffness = solid_stiffness_six(model_, e);
   } else if (e.type == ElementType::bar) {
     part.axial_EA_N = material_of(model_, e).youngs_modulus_Pa * section_of(model_, e).area_m2;

@@ -46,8 +46,8 @@ enum class ElementType { beam, bar, stay, shell, solid };
 [[nodiscard]] constexpr std::size_t node_count(ElementType type) {
   return type == ElementType::solid ? 8 : type == ElementType::shell ? 4 : 2;
 }
-/// Whether an element of this type can have so many nodes: shells have three or four; solids four or eight, or ten or twenty
-/// with nodes in the middles of their edges.
+/// Whether an element of this type can have so many nodes: shells have three or four; solids four or eight, with nodes in the
+/// middles of their edges ten or twenty (solid_quadratic.hpp).
 [[nodiscard]] constexpr bool has_node_count(ElementType type, std::size_t count) {
   return count == node_count(type) || (type == ElementType::shell && count == 3) ||
          (type == ElementType::solid && (count == 4 || count == 10 || count == 20));

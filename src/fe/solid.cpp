@@ -75,7 +75,7 @@ const std::vector<GaussPoint>& gauss_3() {
 
 void require_sound(const SolidGeometry& geometry) {
   const SolidShape shape = solid_shape(geometry);
-  if (shape.volume_m3 > 0.0 && shape.least_ratio > 1e-6) return;
+  if (is_sound(shape)) return;
   const Eigen::Vector3d& x = geometry.node_m[0];
   throw InputError(
       {},

@@ -33,6 +33,11 @@ struct SolidShape {
   double least_ratio;
   int least_corner;  ///< 0-7, the corner nearest to where it occurs
 };
+/// Whether an element of this shape has a stiffness: a volume, and a positive Jacobian wherever it is integrated.
+[[nodiscard]] constexpr bool is_sound(const SolidShape& shape) {
+  constexpr double least = 1e-6;  ///< [-] of the mean Jacobian; below, strains are those of a flat element
+  return shape.volume_m3 > 0.0 && shape.least_ratio > least;
+}
 [[nodiscard]] SolidShape solid_shape(const SolidGeometry& geometry);
 
 /// Stiffness with 2 × 2 × 2 Gauss points; linear in E.

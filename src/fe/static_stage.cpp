@@ -133,12 +133,7 @@ Eigen::VectorXd stage_load(const Model& model, const Eigen::VectorXd& movement) 
 Eigen::MatrixXd continuum_geometric_stiffness(const Model& model, const PrestressState& state, int i) {
   const Element& e = element_at(model, i);
   const Eigen::VectorXd u = straining_displacement(model, state, i);
-  if (e.type == ElementType::solid) {
-    const Material& m = material_of(model, e);
-    const SolidProperties properties{m.youngs_modulus_Pa, m.poisson_ratio};
-    if (is_tetrahedron(e)) return tetrahedron_geometric_stiffness(tetrahedron_geometry(model, e), properties, u);
-    return solid_geometric_stiffness(solid_geometry(model, e), properties, u);
-  }
+  if (e.type == ElementType::solid) return solid_geometric_stiffness_of(model, e, u);
   if (is_triangle(e)) return triangle_geometric_stiffness(triangle_geometry(model, e), shell_properties(model, e), u);
   const bool penalty = model.formulation.drilling == Formulation::Drilling::penalty;
   return shell_geometric_stiffness(shell_geometry(model, e), shell_properties(model, e),

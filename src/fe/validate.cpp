@@ -28,28 +28,35 @@ constexpr double flattest_triangle = 1e-10;  ///< [-] twice the area over the sq
 bool solid_turned_is_sound(const Model& model, const Element& e) {
   SolidGeometry turned = solid_geometry(model, e);
   for (std::size_t i = 0; i < 4; ++i) std::swap(turned.node_m[i], turned.node_m[i + 4]);
-  const SolidShape shape = solid_shape(turned);
-  return shape.volume_m3 > 0.0 && shape.least_ratio > 1e-6;
+  return is_sound(solid_shape(turned));
 }
 
 std::string label(const Element& e) { return fmt::format("element {}{}", e.id, e.name.empty() ? "" : " (" + e.name + ")"); }
 
-/// A solid that is inside out, flat or folded.
-void check_solid(const Model& model, const Element& e) {
-  const SolidShape shape = solid_shape(solid_geometry(model, e));
-  if (shape.volume_m3 > 0.0 && shape.least_ratio > 1e-6) return;
+std::string nodes_of_solid(const Model& model, const Element& e) {
   std::vector<long> ids;
   for (const int node : e.nodes) ids.push_back(model.nodes[static_cast<std::size_t>(node)].id);
-  const std::string solid = fmt::format("the solid {}", fmt::join(ids, "-"));
-  const std::string mend = "give four nodes round one face, then the four above them in the same order";
+  return fmt::format("the solid {}", fmt::join(ids, "-"));
+}
+
+std::string is_inverted(double volume_m3) { return fmt::format(" is inverted: its volume is {:.6g} m3", volume_m3); }
+
+/// A hexahedron, or a quadratic solid, that is inside out, flat or folded.
+void check_solid(const Model& model, const Element& e) {
+  const bool quadratic = is_quadratic(e);
+  const SolidShape shape = quadratic ? quadratic_solid_shape(quadratic_solid(model, e)) : solid_shape(solid_geometry(model, e));
+  if (is_sound(shape)) return;
+  const std::string solid = nodes_of_solid(model, e);
+  const std::string mend = quadratic ? "give the corners first, then the nodes in the middles of their edges"
+                                     : "give four nodes round one face, then the four above them in the same order";
   if (shape.volume_m3 == 0.0) refuse(model, label(e), solid + " has no volume", mend);
-  if (shape.volume_m3 < 0.0 && solid_turned_is_sound(model, e))
-    refuse(model, label(e), solid + fmt::format(" is inverted: its volume is {:.6g} m3", shape.volume_m3),
+  if (shape.volume_m3 < 0.0 && !quadratic && solid_turned_is_sound(model, e))
+    refuse(model, label(e), solid + is_inverted(shape.volume_m3),
            "its faces run the wrong way round: give nodes 5-8 first, then 1-4");
   refuse(model, label(e),
          solid + fmt::format(" is folded or flat near node {}: the Jacobian there is {:.3g} of the element's mean, expected a "
                              "positive part of it (volume {:.6g} m3)",
-                             ids[static_cast<std::size_t>(shape.least_corner)], shape.least_ratio, shape.volume_m3),
+                             model.nodes[slot(e.nodes[slot(shape.least_corner)])].id, shape.least_ratio, shape.volume_m3),
          mend);
 }
 
@@ -57,11 +64,9 @@ void check_solid(const Model& model, const Element& e) {
 void check_tetrahedron(const Model& model, const Element& e) {
   const double volume = tetrahedron_volume(tetrahedron_geometry(model, e));
   if (volume > 0.0) return;
-  std::vector<long> ids;
-  for (const int node : e.nodes) ids.push_back(model.nodes[static_cast<std::size_t>(node)].id);
-  const std::string solid = fmt::format("the solid {}", fmt::join(ids, "-"));
+  const std::string solid = nodes_of_solid(model, e);
   if (volume == 0.0) refuse(model, label(e), solid + " has no volume", "give four nodes that do not lie in one plane");
-  refuse(model, label(e), solid + fmt::format(" is inverted: its volume is {:.6g} m3", volume),
+  refuse(model, label(e), solid + is_inverted(volume),
          "exchange two of its first three nodes: they go round anticlockwise as seen from the fourth");
 }
 
@@ -86,12 +91,11 @@ void check_element(const Model& model, const Element& e) {
     refuse(model, label(e), fmt::format("has a pull of {:g} N, but is neither stay nor bar", e.pull_N), "leave the pull out");
   if (!has_node_count(e.type, e.nodes.size()))
     refuse(model, label(e),
-           fmt::format("has {} nodes, expected {}{}", e.nodes.size(),
-                       e.type == ElementType::shell   ? "3 or "
-                       : e.type == ElementType::solid ? "4 or "
-                                                      : "",
-                       node_count(e.type)),
-           "beams, bars and stays join two nodes, shells three or four, solids four or eight");
+           fmt::format("has {} nodes, expected {}", e.nodes.size(),
+                       e.type == ElementType::shell   ? "3 or 4"
+                       : e.type == ElementType::solid ? "4, 8, 10 or 20"
+                                                      : "2"),
+           "beams, bars and stays join two nodes, shells three or four, solids four, eight, ten or twenty");
   for (const int node : e.nodes) require_position(model, label(e), "node", node, model.nodes.size());
   if (std::set<int>(e.nodes.begin(), e.nodes.end()).size() != e.nodes.size())
     refuse(model, label(e), "names the same node twice", "give different nodes");

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include "core/error.hpp"
 #include "dynamics/unit_slips.hpp"
@@ -32,6 +33,35 @@ std::vector<int> same_shapes(const Eigen::MatrixXd& mac) {
   for (std::size_t i = 0; i < at.size(); ++i)
     if (at[i] >= 0 && !(alike(static_cast<Index>(i), at[i]) > 0.0)) at[i] = -1;
   return at;
+}
+
+/// The same under one factor, which leaves modes in their order: of the computed modes of that shape the lowest above the last
+/// one taken. At few channels several modes have one shape, of which the assignment above takes any.
+std::vector<int> same_shapes_in_order(const Eigen::MatrixXd& mac, const Eigen::VectorXd& measured_Hz) {
+  std::vector<int> order(static_cast<std::size_t>(mac.cols())), at(order.size(), -1);
+  std::iota(order.begin(), order.end(), 0);
+  std::sort(order.begin(), order.end(), [&](int a, int b) { return measured_Hz[a] < measured_Hz[b]; });
+  Index next = 0;
+  for (const int i : order)
+    for (Index n = next; n < mac.rows() && at[static_cast<std::size_t>(i)] < 0; ++n)
+      if (mac(n, i) >= same_shape_mac) at[static_cast<std::size_t>(i)] = static_cast<int>(n), next = n + 1;
+  return at;
+}
+
+/// Computed over measured frequencies of modes of one shape, ascending, if they are enough and one factor.
+std::optional<std::vector<double>> ratios_of_one_factor(const std::vector<int>& same, const Eigen::VectorXd& measured_Hz,
+                                                        const Eigen::VectorXd& computed_Hz) {
+  std::vector<double> ratios;
+  for (std::size_t i = 0; i < same.size(); ++i)
+    if (same[i] >= 0) ratios.push_back(computed_Hz[same[i]] / measured_Hz[static_cast<Index>(i)]);
+  const auto n = static_cast<Index>(ratios.size());
+  if (n < fewest_same_shapes || 2 * n < measured_Hz.size()) return std::nullopt;
+  std::sort(ratios.begin(), ratios.end());
+  const double ratio = ratios[ratios.size() / 2], off = std::abs(std::log(ratio));
+  if (!(off > std::log(least_factor))) return std::nullopt;
+  for (const double each : {ratios.front(), ratios.back()})
+    if (!(std::abs(std::log(each / ratio)) < factor_spread * off)) return std::nullopt;
+  return ratios;
 }
 
 std::string few(const std::vector<std::string>& names) {
@@ -89,21 +119,15 @@ Status outcome(Status status, const PairingAccount& account) {
 
 std::optional<std::string> common_factor(const Measured& measured, const Pairing& pairing, const Eigen::VectorXd& computed_Hz) {
   if (pairing.mac.size() == 0) return std::nullopt;
-  std::vector<double> ratios;
-  const std::vector<int> same = same_shapes(pairing.mac);
-  for (std::size_t i = 0; i < same.size(); ++i)
-    if (same[i] >= 0) ratios.push_back(computed_Hz[same[i]] / measured.modes.frequency_Hz[static_cast<Index>(i)]);
-  const auto n = static_cast<Index>(ratios.size());
-  if (n < fewest_same_shapes || 2 * n < measured.modes.size()) return std::nullopt;
-  std::sort(ratios.begin(), ratios.end());
-  const double ratio = ratios[ratios.size() / 2], off = std::abs(std::log(ratio));
-  if (!(off > std::log(least_factor))) return std::nullopt;
-  for (const double each : {ratios.front(), ratios.back()})
-    if (!(std::abs(std::log(each / ratio)) < factor_spread * off)) return std::nullopt;
+  const Eigen::VectorXd& measured_Hz = measured.modes.frequency_Hz;
+  auto ratios = ratios_of_one_factor(same_shapes(pairing.mac), measured_Hz, computed_Hz);
+  if (!ratios) ratios = ratios_of_one_factor(same_shapes_in_order(pairing.mac, measured_Hz), measured_Hz, computed_Hz);
+  if (!ratios) return std::nullopt;
+  const double ratio = (*ratios)[ratios->size() / 2];
   return fmt::format(
       "the shapes of {} measured modes agree with computed ones (MAC of {} and more) whose frequencies are all {:.3g} "
       "times the measured ({:.3g} to {:.3g}): {}",
-      n, same_shape_mac, ratio, ratios.front(), ratios.back(), guess_of(ratio));
+      ratios->size(), same_shape_mac, ratio, ratios->front(), ratios->back(), guess_of(ratio));
 }
 
 std::optional<std::string> far_by_order(const Measured& measured, const Pairing& pairing, const Eigen::VectorXd& computed_Hz,

@@ -153,7 +153,7 @@ void read_over_block(Parts& parts, const Command& start) {
     } else if (command.key == "=" || command.key == "*SET" || command.key == "*GET") {
       if (!command.blank(0)) parts.parameters.erase(upper_case(command.fields[0]));
     } else if (is_load(command.key)) {
-      if (!parts.loads.not_read) parts.loads.not_read = command;
+      parts.loads.leave(command);
     } else if (command.key != "*ELSE" && !read_parameter(parts, command) && !says_nothing(command)) {
       refuse(command);
     }

@@ -49,10 +49,9 @@ Member checked_member(const Parts& parts, long id, const Element& element) {
         .fail(fmt::format("is of type {} (line {}), which is not supported", definition.name, definition.line),
               "supported are " + element_type_list());
   const ElementType& type = *definition.type;
-  if (type.kind == Kind::quadratic)
+  if (type.kind == Kind::layered)
     parts.at(element.line, label)
-        .fail(fmt::format("is a {}, which is not supported", type.name),
-              "mesh with hexahedra (SOLID185, SOLID186) or homogeneous shells (SHELL181, SHELL281)");
+        .fail(fmt::format("is a {}, which is not supported", type.name), "mesh with homogeneous shells (SHELL181, SHELL281)");
   if (type.kind == Kind::load) return {id, element, definition};
   check_options(parts, definition);
   // Beams may have a node that only gives their direction.
@@ -60,7 +59,7 @@ Member checked_member(const Parts& parts, long id, const Element& element) {
   // Nodes on edges may be left out.
   const std::size_t count = element.nodes.size();
   const bool corners_only =
-      (type.kind == Kind::shell && (count == 3 || count == 4)) || (type.kind == Kind::solid && count == 8);
+      (type.kind == Kind::shell && (count == 3 || count == 4)) || (type.kind == Kind::solid && count == 8 && type.nodes > 8);
   if (count < type.nodes && !corners_only)
     parts.at(element.line, label)
         .fail(fmt::format("has {} nodes, a {} has {}", element.nodes.size(), type.name, type.nodes), "complete the element");

@@ -116,21 +116,25 @@ void add_shell(Builder& builder, const Member& member) {
 }
 
 void add_solid(Builder& builder, const Member& member) {
-  // A tetrahedron is written I, J, K, K, M, M, M, M.
   std::vector<long> nodes = member.element.nodes;
   if (nodes.size() > 8 && std::all_of(nodes.begin() + 8, nodes.end(), [](long id) { return id == 0; })) nodes.resize(8);
   if (std::find(nodes.begin(), nodes.end(), 0L) != nodes.end())
     builder.fail(member, "leaves out some of the nodes on its edges, which is not supported", "give all, or none");
   const std::size_t different = std::set<long>(nodes.begin(), nodes.end()).size();
-  const bool tetrahedron = nodes.size() == 8 && different == 4 && nodes[2] == nodes[3] &&
-                           std::all_of(nodes.begin() + 4, nodes.end(), [&](long id) { return id == nodes[4]; });
-  if (different < nodes.size() && !tetrahedron)
+  // A tetrahedron is written as a hexahedron I, J, K, K, M, M, M, M, and its edges as those of one: I-J, J-K, K, K-I, M four
+  // times, I-M, J-M, K-M twice.
+  const bool tetrahedron = nodes.size() >= 8 && different == (nodes.size() == 8 ? 4U : 10U) && nodes[2] == nodes[3] &&
+                           std::all_of(nodes.begin() + 4, nodes.begin() + 8, [&](long id) { return id == nodes[4]; });
+  const std::vector<std::size_t> places = {0, 1, 2, 4, 8, 9, 11, 16, 17, 18};
+  if (tetrahedron)
+    for (std::size_t i = 0; i < different; ++i) nodes[i] = member.element.nodes[places[i]];
+  if (tetrahedron) nodes.resize(different);
+  if (different < nodes.size())
     builder.fail(
         member,
         fmt::format("is a {} of {} different nodes: prism and pyramid are not supported", member.type().name, different),
-        "mesh with hexahedra, or linear tetrahedra where they do not fit");
-  fe::Element e = element_of(builder, member, fe::ElementType::solid,
-                             tetrahedron ? std::vector<long>{nodes[0], nodes[1], nodes[2], nodes[4]} : nodes);
+        "mesh with hexahedra, or tetrahedra where they do not fit");
+  fe::Element e = element_of(builder, member, fe::ElementType::solid, nodes);
   e.material = builder.material(member, member.element.material, true);
   e.group = builder.group(member, builder.parts.model.materials[static_cast<std::size_t>(e.material)].name);
   builder.parts.add_element(e);

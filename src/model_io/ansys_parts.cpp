@@ -13,10 +13,9 @@ const Component* Parts::component(const std::string& name) const {
 
 std::set<long> Parts::nodes_of(const Command& command, std::size_t field, std::size_t end_field) const {
   std::set<long> chosen;
-  const auto is_selected = [&](long id) { return selected_nodes.all || selected_nodes.ids.contains(id); };
   if (command.word(field) == "ALL") {
     for (const auto& [id, node] : nodes) {
-      if (is_selected(id)) chosen.insert(id);
+      if (selected_nodes.has(id)) chosen.insert(id);
     }
     return chosen;
   }
@@ -29,7 +28,7 @@ std::set<long> Parts::nodes_of(const Command& command, std::size_t field, std::s
   if (first == last && !nodes.contains(first))
     command.fail(fmt::format("node {} is not defined", first), "define it before, or correct the number");
   for (auto it = nodes.lower_bound(first); it != nodes.end() && it->first <= last; ++it) {
-    if ((it->first - first) % step == 0 && is_selected(it->first)) chosen.insert(it->first);
+    if ((it->first - first) % step == 0 && selected_nodes.has(it->first)) chosen.insert(it->first);
   }
   return chosen;
 }

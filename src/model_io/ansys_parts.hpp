@@ -74,6 +74,7 @@ struct Component {
 struct Selection {
   bool all = true;
   std::set<long> ids;  ///< where it is not all
+  [[nodiscard]] bool has(long id) const { return all || ids.contains(id); }
 };
 
 struct Hold {
@@ -130,6 +131,9 @@ struct Loads {
   std::map<long, InitialState> states;
   bool state_is_strain = false;
   std::optional<Command> not_read;  ///< the first load that is not carried
+  void leave(const Command& command) {
+    if (!not_read) not_read = command;
+  }
 };
 
 struct Parts : DeckModel {
@@ -168,6 +172,9 @@ struct Parts : DeckModel {
   [[nodiscard]] std::set<long> nodes_of(const Command& command, std::size_t field, std::size_t end_field) const;
   [[nodiscard]] const Component* component(const std::string& name) const;
 };
+
+/// Labels of the degrees of freedom of a structure, in the order of directions.
+inline const std::vector<std::string> dof_labels = {"UX", "UY", "UZ", "ROTX", "ROTY", "ROTZ"};
 
 /// The model out of what was collected.
 void build_model(Parts& parts);

@@ -157,8 +157,7 @@ void select_nodes_of_elements(Parts& parts, const Command& command) {
   parts.selected_component.clear();
   std::set<long> found;
   for (const auto& [id, element] : parts.elements) {
-    if (parts.selected_elements.all || parts.selected_elements.ids.contains(id))
-      found.insert(element.nodes.begin(), element.nodes.end());
+    if (parts.selected_elements.has(id)) found.insert(element.nodes.begin(), element.nodes.end());
   }
   found.erase(0);
   combine(command, parts.selected_nodes, keys_of(parts.nodes), found);

@@ -9,28 +9,19 @@
 #include "core/error.hpp"
 #include "model_io/ansys_ignored.hpp"
 #include "model_io/deck_stage.hpp"
+#include "model_io/names.hpp"
 
 namespace twindeck::model_io::ansys {
 namespace {
-
-/// Place of a label among six, or -1.
-int force_of(const std::string& label) {
-  static const std::vector<std::string> forces = {"FX", "FY", "FZ", "MX", "MY", "MZ"};
-  const auto found = std::find(forces.begin(), forces.end(), label);
-  return found == forces.end() ? -1 : static_cast<int>(found - forces.begin());
-}
 
 bool is_on(const Command& command) { return command.word(0) == "ON" || command.word(0) == "1" || command.word(0) == "YES"; }
 
 void read_nodal_force(Parts& parts, const Command& command) {
   // F,node,label,value,value2,end,step; FDELE,node,label,end,step
   const bool deletes = command.key == "FDEL";
-  const int dof = force_of(command.word(1));
+  const int dof = position_of(command.word(1), {"FX", "FY", "FZ", "MX", "MY", "MZ"});
   const bool all = deletes && (command.blank(1) || command.word(1) == "ALL");
-  if (dof < 0 && !all) {
-    if (!parts.loads.not_read) parts.loads.not_read = command;
-    return;
-  }
+  if (dof < 0 && !all) return parts.loads.leave(command);
   for (const long node : parts.nodes_of(command, 0, deletes ? 2 : 4))
     for (int d = 0; d < 6; ++d)
       if (all || d == dof) parts.loads.forces[node][static_cast<std::size_t>(d)] = deletes ? 0.0 : command.number_or(2, 0.0);
@@ -40,7 +31,7 @@ std::vector<long> loaded_elements(Parts& parts, const Command& command) {
   std::vector<long> ids;
   if (command.word(0) == "ALL") {
     for (const auto& [id, element] : parts.elements)
-      if (parts.selected_elements.all || parts.selected_elements.ids.contains(id)) ids.push_back(id);
+      if (parts.selected_elements.has(id)) ids.push_back(id);
     return ids;
   }
   if (const Component* named = command.blank(0) ? nullptr : parts.component(command.fields[0]); named != nullptr)
@@ -58,10 +49,7 @@ void read_element_pressure(Parts& parts, const Command& command) {
   for (std::size_t i = first + 2; i < command.fields.size(); ++i)
     plain = plain && (command.blank(i) || command.number_or(i, 0.0) == (beam ? 0.0 : pressure.first));
   if (!beam) plain = plain && command.number_or(3, 0.0) == 0.0 && pressure.second == pressure.first;
-  if (!plain) {
-    if (!parts.loads.not_read) parts.loads.not_read = command;
-    return;
-  }
+  if (!plain) return parts.loads.leave(command);
   for (const long id : loaded_elements(parts, command)) parts.loads.pressures[{id, pressure.face}] = pressure;
 }
 
@@ -76,8 +64,8 @@ void read_body_temperature(Parts& parts, const Command& command) {
     if (command.word(field) != "_TINY") parts.loads.uniform_K = command.number_or(field, 0.0);
   } else if (command.key == "BF" && command.word(1).starts_with("TEMP")) {
     for (const long node : parts.nodes_of(command, 0, command.fields.size())) parts.loads.nodes_K[node] = command.number(2);
-  } else if (!parts.loads.not_read) {
-    parts.loads.not_read = command;
+  } else {
+    parts.loads.leave(command);
   }
 }
 
@@ -90,17 +78,14 @@ void read_initial_state(Parts& parts, const Command& command) {
   }
   bool along_only = action == "DEFI" && !command.blank(5);
   for (std::size_t i = 6; i < command.fields.size(); ++i) along_only = along_only && command.number_or(i, 0.0) == 0.0;
-  if (!along_only) {
-    if (!parts.loads.not_read) parts.loads.not_read = command;
-    return;
-  }
+  if (!along_only) return parts.loads.leave(command);
   const InitialState state{command.number(5), parts.loads.state_is_strain, command.line};
   if (!command.blank(1) && command.word(1) != "ALL") {
     parts.loads.states[command.integer(1)] = state;
     return;
   }
   for (const auto& [id, element] : parts.elements)
-    if (parts.selected_elements.all || parts.selected_elements.ids.contains(id)) parts.loads.states[id] = state;
+    if (parts.selected_elements.has(id)) parts.loads.states[id] = state;
 }
 
 /// Puts loads on the model that is built.
@@ -140,10 +125,13 @@ class Loader {
     if (type == fe::ElementType::beam && p.beam) return press_beam(at, id, p);
     if (type == fe::ElementType::shell && !p.beam && (p.face == 1 || p.face == 2))
       return stage_.press_shell(at, id, p.face == 1 ? p.first : -p.first);
-    if (type != fe::ElementType::solid || p.beam || pieces.front()->nodes.size() != 8 || p.face < 1 || p.face > 6)
+    const std::size_t nodes = pieces.front()->nodes.size();
+    const bool hexahedron = nodes == 8 || nodes == 20, own_type = parts_.elements.at(id).nodes.size() == nodes;
+    if (type != fe::ElementType::solid || p.beam || !own_type || p.face < 1 || p.face > (hexahedron ? 6 : 4))
       stage_.refuse(at, id, fmt::format("a pressure on face {}", p.face));
     constexpr std::array<std::size_t, 6> face_of = {0, 2, 3, 4, 5, 1};  // ANSYS counts bottom, four sides, top
-    stage_.press_solid(at, id, face_of[static_cast<std::size_t>(p.face - 1)], p.first);
+    const auto face = static_cast<std::size_t>(p.face - 1);
+    stage_.press_solid(at, id, hexahedron ? face_of[face] : face, p.first);
   }
 
   /// Faces of BEAM188 and BEAM4: 1 presses along -z, 2 along -y, 3 along +x, 4 and 5 on the ends; of BEAM3: 1 along -y, 2 along
@@ -184,7 +172,7 @@ bool collect_load(Parts& parts, const Command& command) {
     read_body_temperature(parts, command);
     return true;  // without a stage no word of it: moduli do not depend on it
   } else if (is_load(key)) {
-    if (!parts.loads.not_read) parts.loads.not_read = command;
+    parts.loads.leave(command);
   } else {
     return false;
   }
@@ -198,7 +186,7 @@ bool read_load(Parts& parts, const Command& command) {
   try {
     return collect_load(parts, command);
   } catch (const InputError&) {  // a value that is not known matters where modes under load are asked for, and is said there
-    if (!parts.loads.not_read) parts.loads.not_read = command;
+    parts.loads.leave(command);
     return true;
   }
 }

@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "core/error.hpp"
+#include "model_io/names.hpp"
 
 /// Supports and ties of nodes.
 namespace twindeck::model_io::ansys {
@@ -12,11 +13,9 @@ namespace {
 
 /// Degrees of freedom of a label: one, or all six; none for another word.
 std::vector<int> dofs_of(const std::string& label) {
-  static const std::vector<std::string> names = {"UX", "UY", "UZ", "ROTX", "ROTY", "ROTZ"};
   if (label == "ALL") return {0, 1, 2, 3, 4, 5};
-  const auto found = std::find(names.begin(), names.end(), label);
-  if (found == names.end()) return {};
-  return {static_cast<int>(found - names.begin())};
+  const int dof = position_of(label, dof_labels);
+  return dof < 0 ? std::vector<int>{} : std::vector<int>{dof};
 }
 
 std::vector<int> known_dofs(const Command& command, std::size_t field) {

@@ -9,6 +9,7 @@
 #include <set>
 #include <utility>
 
+#include "model_io/names.hpp"
 #include "model_io/rigid_arm.hpp"
 
 /// CDWRITE writes rigid regions as equations, so that those of two nodes are compared with a rigid link.
@@ -16,15 +17,14 @@ namespace twindeck::model_io::ansys {
 namespace {
 
 void read_terms(const Command& command, Equation& equation, std::size_t first) {
-  static const std::vector<std::string> labels = {"UX", "UY", "UZ", "ROTX", "ROTY", "ROTZ"};
   for (std::size_t i = first; i < command.fields.size(); i += 3) {
     if (command.blank(i)) continue;
-    const auto label = std::find(labels.begin(), labels.end(), command.word(i + 1));
-    if (label == labels.end())
+    const int dof = position_of(command.word(i + 1), dof_labels);
+    if (dof < 0)
       command.fail(fmt::format("'{}' is no degree of freedom of a structure", command.word(i + 1)),
                    "expected UX, UY, UZ, ROTX, ROTY or ROTZ");
     const double factor = command.number(i + 2);
-    if (factor != 0.0) equation.terms.push_back({command.integer(i), static_cast<int>(label - labels.begin()), factor});
+    if (factor != 0.0) equation.terms.push_back({command.integer(i), dof, factor});
   }
 }
 

@@ -28,6 +28,8 @@ const std::map<int, ElementType>& types() {
       {281, {"SHELL281", Kind::shell, 8, {{3, {}}, {5, {}}, {8, {}}, {9, {}}, {10, {}}, {11, {}}}}},
       {95, {"SOLID95", Kind::solid, 20, {{1, {}}, {5, {}}, {6, {}}, {11, {}}}}},
       {186, {"SOLID186", Kind::solid, 20, {{2, {}}, {6, {}}}}},
+      {92, {"SOLID92", Kind::solid, 10, {{5, {}}, {6, {}}, {9, {}}}}},
+      {187, {"SOLID187", Kind::solid, 10, {{6, {}}}}},
       {45, {"SOLID45", Kind::solid, 8, {{1, {}}, {2, {}}, {4, {}}, {5, {}}, {6, {}}, {9, {}}}}},
       {185, {"SOLID185", Kind::solid, 8, {{2, {}}, {6, {}}}}},
       {14, {"COMBIN14", Kind::spring, 2, {{2, {0, 1, 2, 3, 4, 5, 6}}, {3, {0, 1, 2}}}}},
@@ -38,10 +40,8 @@ const std::map<int, ElementType>& types() {
       {156, {"SURF156", Kind::load, 0, {}}},
       {200, {"MESH200", Kind::load, 0, {}}},
       {201, {"FOLLW201", Kind::load, 0, {}}},
-      {91, {"SHELL91", Kind::quadratic, 0, {}}},
-      {92, {"SOLID92", Kind::quadratic, 0, {}}},
-      {99, {"SHELL99", Kind::quadratic, 0, {}}},
-      {187, {"SOLID187", Kind::quadratic, 0, {}}}};
+      {91, {"SHELL91", Kind::layered, 0, {}}},
+      {99, {"SHELL99", Kind::layered, 0, {}}}};
   return known;
 }
 
@@ -60,7 +60,7 @@ const ElementType* element_type(const std::string& name) {
 std::string element_type_list() {
   std::string list;
   for (const auto& [number, type] : types()) {
-    if (type.kind != Kind::load && type.kind != Kind::quadratic) list += (list.empty() ? "" : ", ") + type.name;
+    if (type.kind != Kind::load && type.kind != Kind::layered) list += (list.empty() ? "" : ", ") + type.name;
   }
   return list;
 }

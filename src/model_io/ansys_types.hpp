@@ -15,9 +15,9 @@ enum class Kind {
   solid,
   spring,
   mass,
-  rigid,      ///< rigid link
-  load,       ///< carries loads or nothing: left out
-  quadratic,  ///< refused with a hint
+  rigid,    ///< rigid link
+  load,     ///< carries loads or nothing: left out
+  layered,  ///< shells of several layers: refused with a hint
 };
 
 struct ElementType {

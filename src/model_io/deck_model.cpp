@@ -37,15 +37,26 @@ long DeckModel::next_node() {
 }
 
 void DeckModel::add_element(const fe::Element& whole) {
-  const auto new_node = [&](const Eigen::Vector3d& x) {
+  const bool shell = whole.type == fe::ElementType::shell;
+  if (shell) turning.insert(whole.nodes.begin(), whole.nodes.end());
+  if (!shell || whole.nodes.size() < 5) return model.elements.push_back(whole);
+  const std::vector<int>& n = whole.nodes;
+  std::vector<std::vector<int>> parts = {{n[0], n[3], n[5]}, {n[3], n[1], n[4]}, {n[5], n[4], n[2]}, {n[3], n[4], n[5]}};
+  if (n.size() == 8) {
+    Eigen::Vector3d centre = Eigen::Vector3d::Zero();
+    for (std::size_t i = 0; i < 8; ++i) centre += (i < 4 ? -0.25 : 0.5) * place(n[i]);
     made_nodes.insert(next_node());
-    const int node = add_node(last_node, x);
-    if (whole.type == fe::ElementType::shell) turning.insert(node);
-    return node;
-  };
-  if (whole.type == fe::ElementType::shell) turning.insert(whole.nodes.begin(), whole.nodes.end());
-  const std::size_t count = add_in_pieces(model, whole, {new_node, [&] { return ++last_element; }, face_centres_});
-  if (count > 1) pieces[whole.id] = count;
+    const int c = add_node(last_node, centre);
+    turning.insert(c);
+    parts = {{n[0], n[4], c, n[7]}, {n[4], n[1], n[5], c}, {c, n[5], n[2], n[6]}, {n[7], c, n[6], n[3]}};
+  }
+  for (std::size_t i = 0; i < parts.size(); ++i) {
+    fe::Element piece = whole;
+    piece.nodes = parts[i];
+    if (i > 0) piece.id = ++last_element;
+    model.elements.push_back(std::move(piece));
+  }
+  pieces[whole.id] = parts.size();
 }
 
 void DeckModel::add_beam(const fe::Element& whole,

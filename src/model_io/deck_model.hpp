@@ -11,7 +11,6 @@
 
 #include "fe/model.hpp"
 #include "model_io/deck_card.hpp"
-#include "model_io/deck_quadratic.hpp"
 #include "model_io/inp.hpp"
 
 /// Inside of the library: the neutral deck, from which a model is built once. A dialect parses its cards and says here what
@@ -52,8 +51,9 @@ struct DeckModel {
   /// Position of a section of these numbers and this name; its name gets a number where another section has it.
   int add_section(const fe::Section& section);
 
-  /// Adds an element other than a beam. A shell of eight nodes becomes four about a node in its centre, one of six nodes four
-  /// triangles, a hexahedron of twenty nodes eight (deck_quadratic.hpp). Pieces follow one another; the first has the number.
+  /// Adds an element other than a beam. Solids stay as they are. A shell with nodes in the middles of its edges becomes linear
+  /// ones of half the size through the same nodes, which follow one another, the first with its number: of eight nodes four
+  /// quadrilaterals about a node where its shape functions put the centre, of six nodes four triangles (docs/my_model.md).
   void add_element(const fe::Element& whole);
   /// Adds a beam of the nodes first, (middle,) last: two where it has a middle one. `turn` gives a piece its orientation and
   /// offsets, from the vector between its nodes.
@@ -103,7 +103,6 @@ struct DeckModel {
 
  private:
   long next_node();
-  FaceCentres face_centres_;  ///< of hexahedra with nodes on their edges
   std::map<int, std::size_t> support_position_;
 };
 

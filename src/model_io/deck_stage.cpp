@@ -26,23 +26,38 @@ constexpr std::uint16_t rotations_of_first = 0b111000, rotations_of_second = 0b1
 
 const Eigen::Vector3d& stage_place(const fe::Model& model, int node) { return model.nodes[static_cast<std::size_t>(node)].x_m; }
 
-/// Area vectors ∫ N_i n dA of the facet's nodes, n of the nodes' anticlockwise turn.
-std::vector<Eigen::Vector3d> area_vectors(const fe::Model& model, const std::vector<int>& nodes) {
-  std::vector<Eigen::Vector3d> x;
-  for (const int node : nodes) x.push_back(stage_place(model, node));
-  if (nodes.size() == 3) return std::vector<Eigen::Vector3d>(3, (x[1] - x[0]).cross(x[2] - x[0]) / 6.0);
-  std::vector<Eigen::Vector3d> area(4, Eigen::Vector3d::Zero());
-  constexpr std::array<double, 4> xi = {-1.0, 1.0, 1.0, -1.0}, eta = {-1.0, -1.0, 1.0, 1.0};
-  const double a = 1.0 / std::sqrt(3.0);
-  for (std::size_t point = 0; point < 4; ++point) {
-    const double r = a * xi[point], s = a * eta[point];
-    Eigen::Vector3d along_r = Eigen::Vector3d::Zero(), along_s = along_r;
-    for (std::size_t i = 0; i < 4; ++i) {
-      along_r += 0.25 * xi[i] * (1.0 + eta[i] * s) * x[i];
-      along_s += 0.25 * eta[i] * (1.0 + xi[i] * r) * x[i];
+/// Of each node of a facet: its area vector ∫ N_i n dA and its area ∫ N_i dA, which is negative at the corners of eight nodes.
+struct FacetAreas {
+  std::vector<Eigen::Vector3d> vector;
+  std::vector<double> size;
+};
+
+/// Corners first, then the nodes in the middles of 1-2, 2-3, …; n points to where they run anticlockwise. Three points a
+/// direction: exact for facets with straight edges.
+FacetAreas facet_areas(const fe::Model& model, const std::vector<int>& nodes) {
+  const std::size_t n = nodes.size();
+  const bool triangle = n % 3 == 0;
+  const double outer = std::sqrt(0.6);
+  const std::array<double, 3> at = {-outer, 0.0, outer}, weight = {5.0 / 9.0, 8.0 / 9.0, 5.0 / 9.0};
+  FacetAreas area{std::vector<Eigen::Vector3d>(n, Eigen::Vector3d::Zero()), std::vector<double>(n, 0.0)};
+  std::array<double, 8> share{};
+  std::array<Eigen::Vector2d, 8> slope;
+  for (std::size_t i = 0; i < 3; ++i)
+    for (std::size_t j = 0; j < 3; ++j) {
+      const double r = triangle ? 0.5 * (1.0 + at[i]) : at[i], s = triangle ? 0.5 * (1.0 + at[j]) * (1.0 - r) : at[j];
+      facet_functions(n, r, s, share, slope);
+      Eigen::Vector3d along_r = Eigen::Vector3d::Zero(), along_s = along_r;
+      for (std::size_t k = 0; k < n; ++k) {
+        along_r += slope[k][0] * stage_place(model, nodes[k]);
+        along_s += slope[k][1] * stage_place(model, nodes[k]);
+      }
+      const double w = weight[i] * weight[j] * (triangle ? 0.25 * (1.0 - r) : 1.0);
+      const Eigen::Vector3d normal = along_r.cross(along_s);
+      for (std::size_t k = 0; k < n; ++k) {
+        area.vector[k] += w * share[k] * normal;
+        area.size[k] += w * share[k] * normal.norm();
+      }
     }
-    for (std::size_t i = 0; i < 4; ++i) area[i] += 0.25 * (1.0 + xi[i] * r) * (1.0 + eta[i] * s) * along_r.cross(along_s);
-  }
   return area;
 }
 
@@ -205,13 +220,13 @@ void DeckStage::press_solid(const DeckPlace& at, long id, std::size_t face, doub
 }
 
 void DeckStage::press(const std::vector<int>& nodes, double pressure) {
-  const std::vector<Eigen::Vector3d> area = area_vectors(model_, nodes);
-  for (std::size_t i = 0; i < nodes.size(); ++i) load(nodes[i], -pressure * area[i]);
+  const FacetAreas area = facet_areas(model_, nodes);
+  for (std::size_t i = 0; i < nodes.size(); ++i) load(nodes[i], -pressure * area.vector[i]);
 }
 
 void DeckStage::draw(const std::vector<int>& nodes, const Eigen::Vector3d& direction, double traction) {
-  const std::vector<Eigen::Vector3d> area = area_vectors(model_, nodes);
-  for (std::size_t i = 0; i < nodes.size(); ++i) load(nodes[i], traction * area[i].norm() * direction);
+  const FacetAreas area = facet_areas(model_, nodes);
+  for (std::size_t i = 0; i < nodes.size(); ++i) load(nodes[i], traction * area.size[i] * direction);
 }
 
 void DeckStage::strain(const DeckPlace& at, long id, double value, bool is_stress) {
@@ -246,15 +261,44 @@ void DeckStage::close(const std::string& of, bool strained) {
                                     strained ? ", temperatures or initial stresses" : ""));
 }
 
+void facet_functions(std::size_t n, double r, double s, std::array<double, 8>& share, std::array<Eigen::Vector2d, 8>& slope) {
+  if (n % 3 == 0) {
+    const std::array<double, 3> l = {1.0 - r - s, r, s};
+    const std::array<Eigen::Vector2d, 3> d = {Eigen::Vector2d(-1.0, -1.0), Eigen::Vector2d::UnitX(), Eigen::Vector2d::UnitY()};
+    for (std::size_t i = 0; i < 3; ++i) {
+      const std::size_t next = (i + 1) % 3;
+      share[i] = n == 3 ? l[i] : l[i] * (2.0 * l[i] - 1.0);
+      slope[i] = (n == 3 ? 1.0 : 4.0 * l[i] - 1.0) * d[i];
+      share[i + 3] = 4.0 * l[i] * l[next];
+      slope[i + 3] = 4.0 * (l[i] * d[next] + l[next] * d[i]);
+    }
+    return;
+  }
+  constexpr std::array<double, 8> xi = {-1.0, 1.0, 1.0, -1.0, 0.0, 1.0, 0.0, -1.0},
+                                  eta = {-1.0, -1.0, 1.0, 1.0, -1.0, 0.0, 1.0, 0.0};
+  for (std::size_t i = 0; i < n; ++i) {
+    // Products of a linear function along each direction, or 1 - r² along an edge; corners of eight less half of both middles.
+    const double a = xi[i] == 0.0 ? 1.0 - r * r : 0.5 * (1.0 + xi[i] * r),
+                 b = eta[i] == 0.0 ? 1.0 - s * s : 0.5 * (1.0 + eta[i] * s);
+    share[i] = a * b;
+    slope[i] = {(xi[i] == 0.0 ? -2.0 * r : 0.5 * xi[i]) * b, a * (eta[i] == 0.0 ? -2.0 * s : 0.5 * eta[i])};
+  }
+  for (std::size_t i = 4; i < n; ++i)
+    for (const std::size_t corner : {i - 4, (i - 3) % 4}) share[corner] -= 0.5 * share[i], slope[corner] -= 0.5 * slope[i];
+}
+
 Eigen::Matrix3d member_axes(const fe::Model& model, const fe::Element& member) {
   return fe::beam_axes(fe::beam_geometry(model, member));
 }
 
 const std::vector<std::vector<std::size_t>>& solid_faces(std::size_t nodes) {
-  static const std::vector<std::vector<std::size_t>> hexahedron = {{0, 3, 2, 1}, {4, 5, 6, 7}, {0, 1, 5, 4},
-                                                                   {1, 2, 6, 5}, {2, 3, 7, 6}, {3, 0, 4, 7}},
-                                                     tetrahedron = {{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {2, 0, 3}};
-  return nodes == 8 ? hexahedron : tetrahedron;
+  using Faces = std::vector<std::vector<std::size_t>>;
+  static const Faces hexahedron = {{0, 3, 2, 1}, {4, 5, 6, 7}, {0, 1, 5, 4}, {1, 2, 6, 5}, {2, 3, 7, 6}, {3, 0, 4, 7}},
+                     tetrahedron = {{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {2, 0, 3}},
+                     hexahedron_20 = {{0, 3, 2, 1, 11, 10, 9, 8},  {4, 5, 6, 7, 12, 13, 14, 15}, {0, 1, 5, 4, 8, 17, 12, 16},
+                                      {1, 2, 6, 5, 9, 18, 13, 17}, {2, 3, 7, 6, 10, 19, 14, 18}, {3, 0, 4, 7, 11, 16, 15, 19}},
+                     tetrahedron_10 = {{0, 2, 1, 6, 5, 4}, {0, 1, 3, 4, 8, 7}, {1, 2, 3, 5, 9, 8}, {2, 0, 3, 6, 7, 9}};
+  return nodes == 20 ? hexahedron_20 : nodes == 10 ? tetrahedron_10 : nodes == 8 ? hexahedron : tetrahedron;
 }
 
 }  // namespace twindeck::model_io

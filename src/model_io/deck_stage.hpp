@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <array>
 #include <functional>
 #include <string>
 #include <vector>
@@ -68,12 +69,16 @@ class DeckStage {
   std::map<long, std::size_t> position_;  ///< of an element of the deck in the model; its further pieces follow
 };
 
+/// Shape functions and their slopes on a facet of n = 4 or 8 nodes at (r, s) in [-1, 1]², of 3 or 6 at the areas r and s of its
+/// second and third corner. Corners first, then the nodes in the middles of 1-2, 2-3, …; what is beyond n has no meaning.
+void facet_functions(std::size_t n, double r, double s, std::array<double, 8>& share, std::array<Eigen::Vector2d, 8>& slope);
+
 /// Unit vectors of a member's local axes, rows x, y, z.
 [[nodiscard]] Eigen::Matrix3d member_axes(const fe::Model& model, const fe::Element& member);
 
 /// Faces of a solid by the positions of its nodes, each anticlockwise as seen from outside: six of a hexahedron in the order
 /// bottom (nodes 1-4), top (5-8), then the sides above the edges 1-2, 2-3, 3-4, 4-1; four of a tetrahedron in the order 1-2-3,
-/// then the sides of the edges 1-2, 2-3, 3-1.
+/// then the sides of the edges 1-2, 2-3, 3-1. Of a solid of ten or twenty nodes those in the middles of edges follow.
 [[nodiscard]] const std::vector<std::vector<std::size_t>>& solid_faces(std::size_t nodes);
 
 }  // namespace twindeck::model_io

@@ -5,7 +5,7 @@
 
 #include "fe/dynamic_system.hpp"
 #include "io/csv.hpp"
-#include "model_io/matrix_market.hpp"
+#include "matrix_io/matrix_market.hpp"
 #include "model_io/names.hpp"
 
 namespace twindeck::model_io {
@@ -37,16 +37,16 @@ void write_damping(const fe::Model& model, const fe::ParametricSystem& system, c
                    const std::filesystem::path& folder) {
   const fe::DynamicSystem dynamic = fe::assemble_dynamic(model, system, theta);
   if (dynamic.damping.nonZeros() == 0 || dynamic.damping.coeffs().isZero(0.0)) return;
-  write_full_matrix_market(dynamic.damping, folder / "C.mtx");
+  matrix_io::write_full_matrix_market(dynamic.damping, folder / "C.mtx");
   if (dynamic.own.empty()) return;
-  write_full_matrix_market(dynamic.stiffness, folder / "K_damped.mtx");
-  write_full_matrix_market(dynamic.mass, folder / "M_damped.mtx");
+  matrix_io::write_full_matrix_market(dynamic.stiffness, folder / "K_damped.mtx");
+  matrix_io::write_full_matrix_market(dynamic.mass, folder / "M_damped.mtx");
   save_dofs(dynamic.dofs, dynamic.own, folder / "dofs_damped.csv");
 }
 
 void write_matrices(const fe::ParametricSystem& system, const Eigen::VectorXd& theta, const std::filesystem::path& folder) {
-  write_matrix_market(system.stiffness(theta), folder / "K.mtx");
-  write_matrix_market(system.mass(theta), folder / "M.mtx");
+  matrix_io::write_matrix_market(system.stiffness(theta), folder / "K.mtx");
+  matrix_io::write_matrix_market(system.mass(theta), folder / "M.mtx");
   write_dofs(system, folder);
 }
 

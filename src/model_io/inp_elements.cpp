@@ -11,8 +11,8 @@ struct Type {
 };
 
 /// Reduced integration and hybrid variants describe the same member; which formulation is used is ours to say. A B32 becomes
-/// two beams, through its middle node; shells and hexahedra with such nodes become smaller ones (deck_quadratic.hpp). STRI3 is
-/// Abaqus' thin triangle, US3 CalculiX' own (a *USER ELEMENT).
+/// two beams, through its middle node; shells with such nodes become smaller ones (DeckModel::add_element). STRI3 is Abaqus'
+/// thin triangle, US3 CalculiX' own (a *USER ELEMENT).
 const std::map<std::string, Type>& types() {
   static const std::map<std::string, Type> known = {
       {"B31", {InpKind::beam, 2}},         {"B31R", {InpKind::beam, 2}},        {"B31H", {InpKind::beam, 2}},
@@ -22,6 +22,8 @@ const std::map<std::string, Type>& types() {
       {"S8", {InpKind::shell, 8}},         {"S8R", {InpKind::shell, 8}},        {"S8R5", {InpKind::shell, 8}},
       {"S6", {InpKind::shell, 6}},         {"STRI65", {InpKind::shell, 6}},     {"C3D20", {InpKind::solid, 20}},
       {"C3D20R", {InpKind::solid, 20}},    {"C3D20H", {InpKind::solid, 20}},    {"C3D20RH", {InpKind::solid, 20}},
+      {"C3D10", {InpKind::solid, 10}},     {"C3D10M", {InpKind::solid, 10}},    {"C3D10H", {InpKind::solid, 10}},
+      {"C3D10I", {InpKind::solid, 10}},    {"C3D10HS", {InpKind::solid, 10}},   {"C3D10MH", {InpKind::solid, 10}},
       {"STRI3", {InpKind::shell, 3}},      {"US3", {InpKind::shell, 3}},        {"C3D8", {InpKind::solid, 8}},
       {"C3D8I", {InpKind::solid, 8}},      {"C3D8R", {InpKind::solid, 8}},      {"C3D4", {InpKind::solid, 4}},
       {"JOINTC", {InpKind::joint, 2}},     {"SPRINGA", {InpKind::spring, 2}},   {"SPRING1", {InpKind::spring, 1}},
@@ -44,8 +46,7 @@ int inp_node_count(const std::string& type) {
 
 std::string inp_linear_type(const std::string& type) {
   if (type.starts_with("C3D27")) return "C3D20 (hexahedra)";
-  if (type.starts_with("C3D10") || type.starts_with("C3D15"))
-    return "C3D8 or C3D20 (hexahedra in place of tetrahedra and wedges; C3D4 is read, but too stiff in bending)";
+  if (type.starts_with("C3D15")) return "C3D20 (hexahedra) or C3D10 (tetrahedra)";
   if (type.starts_with("S9")) return "S8R";
   if (type.starts_with("T3D3")) return "T3D2";
   return "";

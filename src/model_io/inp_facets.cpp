@@ -7,6 +7,8 @@
 #include <array>
 #include <cmath>
 
+#include "model_io/deck_stage.hpp"
+
 namespace twindeck::model_io {
 namespace {
 
@@ -16,25 +18,23 @@ using Local = Eigen::Vector2d;  ///< xi, eta: [-1, 1]² of a quadrilateral, [0, 
 void shape(std::size_t n, const Local& at, std::vector<double>& share, Eigen::Matrix<double, Eigen::Dynamic, 2>& slope) {
   share.assign(n, 0.0);
   slope.setZero(static_cast<Eigen::Index>(n), 2);
-  if (n == 3) {
-    share = {1.0 - at[0] - at[1], at[0], at[1]};
-    slope << -1.0, -1.0, 1.0, 0.0, 0.0, 1.0;
-  } else if (n == 2) {
+  if (n == 2) {
     share = {0.5 * (1.0 - at[0]), 0.5 * (1.0 + at[0])};
     slope << -0.5, 0.0, 0.5, 0.0;
-  } else {
-    constexpr std::array<std::array<double, 2>, 4> corner = {{{-1.0, -1.0}, {1.0, -1.0}, {1.0, 1.0}, {-1.0, 1.0}}};
-    for (std::size_t i = 0; i < 4; ++i) {
-      const auto [a, b] = corner[i];
-      share[i] = 0.25 * (1.0 + a * at[0]) * (1.0 + b * at[1]);
-      slope.row(static_cast<Eigen::Index>(i)) << 0.25 * a * (1.0 + b * at[1]), 0.25 * b * (1.0 + a * at[0]);
-    }
+    return;
+  }
+  std::array<double, 8> shares{};
+  std::array<Eigen::Vector2d, 8> slopes;
+  facet_functions(n, at[0], at[1], shares, slopes);
+  for (std::size_t i = 0; i < n; ++i) {
+    share[i] = shares[i];
+    slope.row(static_cast<Eigen::Index>(i)) = slopes[i].transpose();
   }
 }
 
 /// The nearest place within the facet's own bounds.
 Local within(std::size_t n, Local at) {
-  if (n != 3) return at.cwiseMax(-1.0).cwiseMin(1.0);
+  if (n % 3 != 0) return at.cwiseMax(-1.0).cwiseMin(1.0);
   at = at.cwiseMax(0.0);
   const double sum = at.sum();
   return sum > 1.0 ? Local(at / sum) : at;
@@ -52,7 +52,7 @@ Eigen::Matrix<double, 3, Eigen::Dynamic> tangents(const Facet& facet, const Eige
 
 double Facet::size_m() const {
   if (x_m.size() == 2) return (x_m[1] - x_m[0]).norm();
-  if (x_m.size() == 3) return std::sqrt(0.5 * (x_m[1] - x_m[0]).cross(x_m[2] - x_m[0]).norm());
+  if (x_m.size() % 3 == 0) return std::sqrt(0.5 * (x_m[1] - x_m[0]).cross(x_m[2] - x_m[0]).norm());
   return std::sqrt(0.5 * (x_m[2] - x_m[0]).cross(x_m[3] - x_m[1]).norm());
 }
 
@@ -67,7 +67,7 @@ Foot Facet::foot_of(const Eigen::Vector3d& x) const {
   constexpr double still = 1e-12;     // [-] step at which the place is found
   constexpr double far_beside = 3.0;  // [-] beyond it the node belongs to another facet
   Foot foot;
-  Local at = x_m.size() == 3 ? Local(1.0 / 3.0, 1.0 / 3.0) : Local(0.0, 0.0);
+  Local at = x_m.size() % 3 == 0 ? Local(1.0 / 3.0, 1.0 / 3.0) : Local(0.0, 0.0);
   for (int step = 0; step < most_steps; ++step) {
     shape(x_m.size(), at, foot.share, foot.slope);
     const auto t = tangents(*this, foot.slope);

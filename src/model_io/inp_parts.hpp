@@ -34,7 +34,7 @@ struct InpSet {
 
 /// A part of a surface: a face of a solid, a shell, or the edge of one.
 struct InpFacet {
-  std::vector<long> nodes;  ///< 4, 3, or 2 of an edge, in order around it
+  std::vector<long> nodes;  ///< corners in order around it (2 of an edge), then middles of its edges
   long element = 0;
   bool turning = false;  ///< its nodes have rotations (shells)
 };

@@ -17,8 +17,7 @@ InpFacet facet_of(const DeckPlace& at, const InpElement& element, const std::str
   const bool numbered = face.size() == 2 && face[1] >= '1' && face[1] <= '6';
   const std::size_t number = numbered ? static_cast<std::size_t>(face[1] - '1') : 0;
   InpFacet facet{{}, element.id, kind == InpKind::shell};
-  const bool corners_only = element.nodes.size() == 3 || element.nodes.size() == 4 || element.nodes.size() == 8;
-  const bool of_solid = kind == InpKind::solid && corners_only && numbered && face[0] == 'S';
+  const bool of_solid = kind == InpKind::solid && numbered && face[0] == 'S';
   if (of_solid && number < solid_faces(element.nodes.size()).size()) {
     for (const std::size_t i : solid_faces(element.nodes.size())[number]) facet.nodes.push_back(element.nodes[i]);
   } else if (kind == InpKind::shell && element.nodes.size() < 5 && (face.empty() || face == "SPOS" || face == "SNEG")) {
@@ -28,9 +27,10 @@ InpFacet facet_of(const DeckPlace& at, const InpElement& element, const std::str
              number < element.nodes.size()) {
     facet.nodes = {element.nodes[number], element.nodes[(number + 1) % element.nodes.size()]};
   } else {
-    at.fail(fmt::format("'{}' is no face of element {}, a {}", face, element.id, element.type),
-            "hexahedra have S1 to S6, tetrahedra S1 to S4, shells SPOS, SNEG and edges E1 to E4; elements with nodes on their "
-            "edges have none; name nodes by TYPE=NODE");
+    at.fail(
+        fmt::format("'{}' is no face of element {}, a {}", face, element.id, element.type),
+        "hexahedra have S1 to S6, tetrahedra S1 to S4, shells SPOS, SNEG and edges E1 to E4; shells with nodes on their edges "
+        "have none; name nodes by TYPE=NODE");
   }
   return facet;
 }

@@ -204,9 +204,12 @@ void InpWriter::faces_and_blocks() {
     const fe::Material& m = model_.materials[static_cast<std::size_t>(e.material)];
     const std::string material_name = material(m.name, m.youngs_modulus_Pa, m.poisson_ratio, m.density_kg_m3);
     if (e.type == fe::ElementType::solid) {
-      // Incompatible modes in both programs, as in ours.
-      const std::string set =
-          element_block(fe::is_tetrahedron(e) ? "C3D4" : "C3D8I", e.group.empty() ? "solid" : e.group, group.second);
+      // Of eight nodes with incompatible modes in both programs, as in ours.
+      const char* type = e.nodes.size() == 4    ? "C3D4"
+                         : e.nodes.size() == 8  ? "C3D8I"
+                         : e.nodes.size() == 10 ? "C3D10"
+                                                : "C3D20";
+      const std::string set = element_block(type, e.group.empty() ? "solid" : e.group, group.second);
       elements_ += fmt::format("*SOLID SECTION, ELSET={}, MATERIAL={}\n", set, material_name);
       continue;
     }

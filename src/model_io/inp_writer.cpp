@@ -102,7 +102,9 @@ std::string InpWriter::element_block(const std::string& type, const std::string&
   elements_ += fmt::format("*ELEMENT, TYPE={}, ELSET={}\n", type, place->second);
   for (const auto& [id, nodes] : rows) {
     elements_ += std::to_string(id);
-    for (const long node : nodes) elements_ += fmt::format(", {}", node);
+    constexpr std::size_t a_line = 16;  // fields that both programs take; a comma at the end goes on
+    for (std::size_t i = 0; i < nodes.size(); ++i)
+      elements_ += fmt::format("{}{}", (i + 1) % a_line == 0 ? ",\n" : ", ", nodes[i]);
     elements_ += '\n';
   }
   const std::string set = set_name("part");

@@ -6,7 +6,7 @@
 #include "io/csv.hpp"
 #include "io/path_name.hpp"
 #include "io/toml_value.hpp"
-#include "model_io/matrix_market.hpp"
+#include "matrix_io/matrix_market.hpp"
 #include "model_io/names.hpp"
 
 namespace twindeck::model_io {
@@ -53,12 +53,12 @@ fe::MatrixElement to_matrix_element(const std::filesystem::path& folder, const N
   const Eigen::Index n = std::ssize(element.dofs) + element.internal;
   const auto read = [&](const std::string& file) -> Eigen::MatrixXd {
     if (file.empty()) return {};
-    if (const Eigen::Index rows = matrix_market_size(folder / file).rows; rows != n)
+    if (const Eigen::Index rows = matrix_io::matrix_market_size(folder / file).rows; rows != n)
       throw at(folder, file, entry.name,
                fmt::format("{} holds a {} x {} matrix, expected {} x {}: {} degrees of freedom and {} unknowns of its own",
                            file, rows, rows, n, n, element.dofs.size(), element.internal),
                "mend the size, or list the degrees of freedom that belong to it");
-    return read_square_matrix(folder / file);
+    return matrix_io::read_square_matrix(folder / file);
   };
   element.stiffness = read(entry.stiffness);
   element.damping = read(entry.damping);
@@ -80,7 +80,7 @@ std::string write_matrix_elements(const fe::Model& model, const std::filesystem:
     const auto write = [&](const Eigen::MatrixXd& matrix, const char* key, const char* letter) {
       if (matrix.size() == 0) return;
       const std::string file = fmt::format("matrices/{}_{}.mtx", element.name, letter);
-      write_square_matrix(matrix, folder / file);
+      matrix_io::write_square_matrix(matrix, folder / file);
       text += fmt::format("{} = \"{}\"\n", key, file);
     };
     write(element.stiffness, "stiffness", "K");

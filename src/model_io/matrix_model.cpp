@@ -9,10 +9,10 @@
 #include "core/error.hpp"
 #include "io/config.hpp"
 #include "io/csv.hpp"
+#include "matrix_io/matrix_market.hpp"
+#include "matrix_io/op4.hpp"
 #include "model_io/folder_parts.hpp"
-#include "model_io/matrix_market.hpp"
 #include "model_io/names.hpp"
-#include "model_io/op4.hpp"
 
 namespace twindeck::model_io {
 namespace {
@@ -115,8 +115,10 @@ int add_parameter(const std::filesystem::path& file, const MatrixParameter& entr
 }
 
 linalg::SparseMatrix read_sized(const std::filesystem::path& file, std::size_t n) {
-  const MatrixMarketSize size = is_op4(file) ? MatrixMarketSize{op4_rows(file), 1} : matrix_market_size(file);
-  if (size.rows == static_cast<Eigen::Index>(n)) return is_op4(file) ? read_op4(file) : read_matrix_market(file);
+  const matrix_io::MatrixMarketSize size =
+      matrix_io::is_op4(file) ? matrix_io::MatrixMarketSize{matrix_io::op4_rows(file), 1} : matrix_io::matrix_market_size(file);
+  if (size.rows == static_cast<Eigen::Index>(n))
+    return matrix_io::is_op4(file) ? matrix_io::read_op4(file) : matrix_io::read_matrix_market(file);
   throw InputError({file.string(), size.line, ""}, fmt::format("is {0} x {0}, but dofs.csv has {1} rows", size.rows, n),
                    "matrices and dofs.csv must be of one model");
 }

@@ -181,15 +181,10 @@ void read_shell(Parts& parts, const Card& card) {
 
 void read_solid(Parts& parts, const Card& card) {
   const std::size_t corners = card.name == "CTETRA" ? 4 : 8;
-  if (corners == 4 && card.size() > 2 + corners)
-    card.fail("has nodes on its edges (10 in all), which is not read",
-              "mesh with hexahedra (CHEXA); tetrahedra of 4 nodes are read, but too stiff in bending");
   fe::Element e = start_element(parts, card, fe::ElementType::solid, 2, corners);
-  if (corners == 8) {
-    // G9 to G12 lie on the bottom, G13 to G16 between, G17 to G20 on the top: here the top comes second.
-    add_edge_grids(parts, card, 2 + corners, 12, e);
-    if (e.nodes.size() == 20) std::rotate(e.nodes.begin() + 12, e.nodes.begin() + 16, e.nodes.end());
-  }
+  add_edge_grids(parts, card, 2 + corners, corners == 4 ? 6 : 12, e);
+  // G9 to G12 lie on the bottom, G13 to G16 between, G17 to G20 on the top: here the top comes second.
+  if (e.nodes.size() == 20) std::rotate(e.nodes.begin() + 12, e.nodes.begin() + 16, e.nodes.end());
   const Card& p = parts.property(card, card.integer_or(1, e.id), {"PSOLID"});
   if (const std::string kind = p.word(6); !kind.empty() && kind != "SMECH")
     p.fail(fmt::format("is '{}', no solid of the structure", kind), "leave the fluid out");

@@ -87,16 +87,7 @@ void read_mass(Parts& parts, const Card& card) {
 }
 
 void read_scalar_mass(Parts& parts, const Card& card) {
-  double mass = 0.0;
-  if (card.name == "CMASS1") {
-    const long id = card.integer_or(1, card.integer(0));
-    const auto found = parts.scalar_masses.find(id);
-    if (found == parts.scalar_masses.end())
-      card.fail(fmt::format("property {} is no PMASS of this deck", id), "give the property, or mend its number");
-    mass = found->second;
-  } else {
-    mass = card.number(1);
-  }
+  const double mass = card.name == "CMASS1" ? parts.constant(card, parts.scalar_masses, "PMASS").second : card.number(1);
   if (mass < 0.0) card.fail("the mass is negative", "check the sign");
   if (!card.blank(4) && card.text(4) != "0")
     card.fail("is a mass between two grids, which is not read", "give a mass to ground at one grid");

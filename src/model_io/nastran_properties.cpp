@@ -18,6 +18,14 @@ const Card& Parts::property(const DeckPlace& element, long id, const std::vector
                "give the property, or mend its number");
 }
 
+std::pair<long, double> Parts::constant(const Card& card, const std::map<long, double>& of, const char* kind) const {
+  const auto found = of.find(card.integer_or(1, card.integer(0)));
+  if (found == of.end())
+    card.fail(fmt::format("property {} is no {} of this deck", card.integer_or(1, card.integer(0)), kind),
+              "give the property, or mend its number");
+  return *found;
+}
+
 int Parts::material(const DeckPlace& from, long id, double added_density, const std::string& owner) {
   const auto found = materials.find(id);
   if (found == materials.end())

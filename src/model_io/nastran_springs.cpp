@@ -115,11 +115,8 @@ void read_scalar_spring(Parts& parts, const Card& card) {
   double k = 0.0;
   std::string group = "celas2_" + card.text(0);
   if (card.name == "CELAS1") {
-    const long id = card.integer_or(1, card.integer(0));
-    const auto found = parts.spring_constants.find(id);
-    if (found == parts.spring_constants.end())
-      card.fail(fmt::format("property {} is no PELAS of this deck", id), "give the property, or mend its number");
-    k = found->second;
+    const auto [id, constant] = parts.constant(card, parts.spring_constants, "PELAS");
+    k = constant;
     group = fmt::format("pelas_{}", id);
   } else {
     k = card.number(1);

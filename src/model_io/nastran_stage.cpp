@@ -144,8 +144,8 @@ class StageReader {
     if (e.type != fe::ElementType::solid || card.name != "PLOAD4" || card.blank(6)) return stage_.press_shell(card, id, p);
     // G1 lies on the face; G3 is the corner opposite to it on a hexahedron's, G4 the corner off a tetrahedron's.
     const int g1 = stage_.node(card, card.integer(6)), other = card.blank(7) ? -1 : stage_.node(card, card.integer(7));
-    const bool hexahedron = e.nodes.size() == 8;
-    const auto& faces = solid_faces(e.nodes.size());
+    const bool hexahedron = e.nodes.size() == 8 || e.nodes.size() == 20;
+    const auto& faces = solid_faces(hexahedron ? 8 : 4);  // their corners
     for (std::size_t face = 0; face < faces.size(); ++face) {
       std::vector<int> nodes;
       for (const std::size_t i : faces[face]) nodes.push_back(e.nodes[i]);

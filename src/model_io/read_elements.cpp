@@ -10,7 +10,9 @@
 namespace twindeck::model_io {
 namespace {
 
-const std::array<const char*, 8> kNodeColumns = {"node1", "node2", "node3", "node4", "node5", "node6", "node7", "node8"};
+constexpr std::size_t kNodeColumns = 20;
+
+std::string node_column(std::size_t i) { return fmt::format("node{}", i + 1); }
 
 int position_by_name(const io::CsvTable& table, std::size_t row, const std::string& column,
                      const std::map<std::string, int>& known) {
@@ -42,17 +44,25 @@ fe::ElementType read_type(const io::CsvTable& table, std::size_t row) {
   return static_cast<fe::ElementType>(position);
 }
 
+/// How many nodes the row names: a shell whose node4 is empty is a triangle; a solid has four, eight, ten or twenty.
+std::size_t nodes_wanted(const io::CsvTable& table, std::size_t row, fe::ElementType type) {
+  const auto is_empty = [&](std::size_t i) { return table.text(row, node_column(i)).empty(); };
+  if (type == fe::ElementType::shell && is_empty(3)) return 3;
+  if (type != fe::ElementType::solid) return fe::node_count(type);
+  return is_empty(4) ? 4 : is_empty(8) && is_empty(9) ? 8 : is_empty(10) && is_empty(19) ? 10 : 20;
+}
+
 void read_element_nodes(const io::CsvTable& table, std::size_t row, const NameIndex& index, fe::Element& element) {
-  // A shell whose node4 is empty is a triangle, a solid whose node5 is empty a tetrahedron.
-  const bool triangle = element.type == fe::ElementType::shell && table.text(row, kNodeColumns[3]).empty();
-  const bool tetrahedron = element.type == fe::ElementType::solid && table.text(row, kNodeColumns[4]).empty();
-  const std::size_t wanted = triangle ? 3 : tetrahedron ? 4 : fe::node_count(element.type);
-  for (std::size_t i = 0; i < wanted; ++i) element.nodes.push_back(index.node(table, row, kNodeColumns[i]));
-  for (std::size_t i = wanted; i < kNodeColumns.size(); ++i) {
-    if (!table.text(row, kNodeColumns[i]).empty()) {
-      table.fail(row, kNodeColumns[i],
-                 fmt::format("is filled, but a {} has {} nodes", name_of(element.type), wanted == 2 ? "two" : "three or four"),
-                 "leave the cell empty or make the element a shell (three or four nodes) or a solid (eight)");
+  const std::size_t wanted = nodes_wanted(table, row, element.type);
+  for (std::size_t i = 0; i < wanted; ++i) element.nodes.push_back(index.node(table, row, node_column(i)));
+  for (std::size_t i = wanted; i < kNodeColumns; ++i) {
+    if (!table.text(row, node_column(i)).empty()) {
+      const char* words = wanted == 2                              ? "two"
+                          : element.type == fe::ElementType::shell ? "three or four"
+                                                                   : "four, eight, ten or twenty";
+      table.fail(
+          row, node_column(i), fmt::format("is filled, but a {} has {} nodes", name_of(element.type), words),
+          "leave the cell empty or make the element a shell (three or four nodes) or a solid (four, eight, ten or twenty)");
     }
   }
   if (std::set<int>(element.nodes.begin(), element.nodes.end()).size() != wanted) {
@@ -95,11 +105,12 @@ void check_section(const io::CsvTable& table, std::size_t row, const fe::Model& 
 }  // namespace
 
 void read_elements(const std::filesystem::path& folder, fe::Model& model, const NameIndex& index) {
-  const auto table = io::CsvTable::read(
-      folder / "elements.csv", {"element", "type", "material", "section", "node1", "node2"},
-      {"name",        "group",       "node3",         "node4",         "node5",         "node6",       "node7",
-       "node8",       "section2",    "orientation_x", "orientation_y", "orientation_z", "offset1_x_m", "offset1_y_m",
-       "offset1_z_m", "offset2_x_m", "offset2_y_m",   "offset2_z_m",   "releases",      "pull_N",      "free_strain"});
+  std::vector<std::string> optional = {"name",          "group",       "section2",    "orientation_x", "orientation_y",
+                                       "orientation_z", "offset1_x_m", "offset1_y_m", "offset1_z_m",   "offset2_x_m",
+                                       "offset2_y_m",   "offset2_z_m", "releases",    "pull_N",        "free_strain"};
+  for (std::size_t i = 2; i < kNodeColumns; ++i) optional.push_back(node_column(i));
+  const auto table =
+      io::CsvTable::read(folder / "elements.csv", {"element", "type", "material", "section", "node1", "node2"}, optional);
   std::set<long> ids;
   for (std::size_t row = 0; row < table.rows(); ++row) {
     fe::Element e;

@@ -14,9 +14,14 @@
 namespace twindeck::model_io {
 namespace {
 
-/// VTK_LINE, VTK_TRIANGLE, VTK_QUAD, VTK_TETRA, VTK_HEXAHEDRON: nodes in the order of the model's.
+/// VTK_LINE, VTK_TRIANGLE, VTK_QUAD, VTK_TETRA, VTK_HEXAHEDRON, and the two solids with nodes on edges, VTK_QUADRATIC_TETRA and
+/// VTK_QUADRATIC_HEXAHEDRON: nodes in the order of the model's.
 int vtk_cell(const fe::Element& e) {
   switch (e.nodes.size()) {
+    case 20:
+      return 25;
+    case 10:
+      return 24;
     case 8:
       return 12;
     case 4:

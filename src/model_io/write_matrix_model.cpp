@@ -7,9 +7,9 @@
 #include "core/error.hpp"
 #include "io/atomic.hpp"
 #include "io/toml_value.hpp"
+#include "matrix_io/matrix_market.hpp"
 #include "model_io/export_matrices.hpp"
 #include "model_io/folder_parts.hpp"
-#include "model_io/matrix_market.hpp"
 
 namespace twindeck::model_io {
 namespace {
@@ -67,8 +67,8 @@ void write_matrix_model(const fe::ParametricSystem& system, const std::filesyste
   write_dofs(system, folder);
   const Decomposition stiffness = decompose(system, system.stiffness_terms);
   const Decomposition mass = decompose(system, system.mass_terms);
-  write_matrix_market(stiffness.constant, folder / "K0.mtx");
-  write_matrix_market(mass.constant, folder / "M0.mtx");
+  matrix_io::write_matrix_market(stiffness.constant, folder / "K0.mtx");
+  matrix_io::write_matrix_market(mass.constant, folder / "M0.mtx");
   std::string text =
       "# K = K0 + sum theta_i K_i, M = M0 + sum theta_j M_j; rows in the order of dofs.csv\n"
       "[matrices]\nK = \"K0.mtx\"\nM = \"M0.mtx\"\n";
@@ -77,12 +77,12 @@ void write_matrix_model(const fe::ParametricSystem& system, const std::filesyste
     const bool in_mass = !is_zero(mass.slope[p]);
     if (!is_zero(stiffness.slope[p]) || !in_mass) {
       const std::string file = fmt::format("K{}.mtx", p + 1);
-      write_matrix_market(stiffness.slope[p], folder / file);
+      matrix_io::write_matrix_market(stiffness.slope[p], folder / file);
       text += parameter_text(parameter, file, "stiffness");
     }
     if (in_mass) {
       const std::string file = fmt::format("M{}.mtx", p + 1);
-      write_matrix_market(mass.slope[p], folder / file);
+      matrix_io::write_matrix_market(mass.slope[p], folder / file);
       text += parameter_text(parameter, file, "mass");
     }
   }

@@ -38,10 +38,9 @@ void write_parts(const fe::Model& model, const std::filesystem::path& folder) {
 }
 
 void write_elements(const fe::Model& model, const std::filesystem::path& folder) {
-  // Columns node5 to node8 are there only for hexahedra, section2 only for tapered beams, free_strain only for warmed parts.
-  const bool hexahedra =
-      std::any_of(model.elements.begin(), model.elements.end(), [](const fe::Element& e) { return e.nodes.size() > 4; });
-  const std::size_t node_columns = hexahedra ? 8 : 4;
+  // Columns from node5 on are there only for solids that need them, section2 for tapered beams, free_strain for warmed parts.
+  std::size_t node_columns = 4;
+  for (const fe::Element& e : model.elements) node_columns = std::max(node_columns, e.nodes.size());
   std::vector<std::string> header = {"element", "type", "name", "group", "material", "section"};
   for (std::size_t i = 1; i <= node_columns; ++i) header.push_back("node" + std::to_string(i));
   const bool tapers =

@@ -9,6 +9,7 @@
 #include <string_view>
 
 #include "core/error.hpp"
+#include "io/letters.hpp"
 
 namespace twindeck::records {
 
@@ -17,9 +18,8 @@ using Eigen::Index;
 namespace {
 
 std::string bare(const std::string& name) {
-  std::string text = name.substr(name.find_last_of("/.") == std::string::npos ? 0 : name.find_last_of("/.") + 1);
-  std::transform(text.begin(), text.end(), text.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return text;
+  const std::size_t last = name.find_last_of("/.");
+  return io::lower_case(name.substr(last == std::string::npos ? 0 : last + 1));
 }
 
 template <std::size_t n>

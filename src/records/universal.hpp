@@ -25,7 +25,8 @@ struct NodalResult {
 /// An element (set 2412).
 struct UniversalElement {
   long label = 0;
-  long descriptor = 0;  ///< 11 rod, 21 beam, 91 and 94 shell of three and four nodes, 111 tetrahedron, 115 hexahedron
+  long descriptor = 0;  ///< 11 rod, 21 beam, 91 and 94 shell of three and four nodes, 111 tetrahedron, 115 hexahedron,
+                        ///< 118 and 116 those with nodes on their edges
   std::vector<long> nodes;
 };
 

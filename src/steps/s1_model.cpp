@@ -5,7 +5,6 @@
 #include "dynamics/model_check.hpp"
 #include "dynamics/unit_slips.hpp"
 #include "model_io/any_model_folder.hpp"
-#include "model_io/model_tables.hpp"
 #include "model_io/modes_io.hpp"
 #include "model_io/vtu.hpp"
 #include "ponte/generator.hpp"
@@ -14,6 +13,7 @@
 #include "steps/model/exports.hpp"
 #include "steps/model/mesh_convergence.hpp"
 #include "steps/model/model_config.hpp"
+#include "steps/model/model_tables.hpp"
 #include "steps/shared/model_source.hpp"
 
 namespace {
@@ -35,7 +35,7 @@ Status run(const steps::ModelConfig& config, const dynamics::ReadModel& read, bo
   // 3. Modes and shapes, a picture, tables of stays, members, dampers and sizes, the model as a folder for any other step.
   model_io::write_modes(model_io::published_modes(model, loaded.system, modes), context.out);
   if (model != nullptr) model_io::write_vtu(*model, loaded.system, modes, context.out / "model.vtu");
-  model_io::write_model_tables(loaded, is_bridge ? model_io::PartOf(ponte::part_of) : model_io::PartOf(), context.out);
+  steps::write_model_tables(loaded, is_bridge ? steps::PartOf(ponte::part_of) : steps::PartOf(), context.out);
   model_io::save_model(loaded, loaded.theta, context.out / "model");
   steps::write_exports(loaded, modes, static_cast<int>(config.n_modes), context);
 

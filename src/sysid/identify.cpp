@@ -48,7 +48,8 @@ bool is_settled(const Cluster& mode, const ModeDeviation& deviation, const Ident
   const double f = mode.frequency_Hz, zeta = std::max(mode.damping_ratio, 1e-6), relative = deviation.frequency_Hz / f;
   if (options.selection == Selection::paper) return options.largest_deviation <= 0.0 || relative <= options.largest_deviation;
   const double share = options.largest_bandwidth_share;
-  if (seconds <= 0.0) return share <= 0.0 || deviation.frequency_Hz <= share * zeta * f;
+  // A decay whose damping may be none is not known to decay: noise has such poles, well known in frequency by chance.
+  if (seconds <= 0.0) return share <= 0.0 || (deviation.frequency_Hz <= share * zeta * f && deviation.damping_ratio <= zeta);
   if (options.largest_law_ratio <= 0.0) return true;
   // In relation to the half bandwidth and to the damping ratio itself, the least deviation is the same number.
   const double law = std::sqrt(1.0 / (2.0 * std::numbers::pi * f * zeta * seconds)), short_record = kNearLaw * law;

@@ -43,7 +43,7 @@ struct IdentifyOptions {
   /// more. 0 keeps all.
   double largest_law_ratio = 10.0;
   /// Automatic selection: dropped if it exceeds this share of the half bandwidth zeta f; of a record also three times the lower
-  /// limit, since in few cycles no mode is known better. 0 keeps all.
+  /// limit, since in few cycles no mode is known better; of a decay also if its damping ratio may be none. 0 keeps all.
   double largest_bandwidth_share = 0.5;
 
   [[nodiscard]] std::vector<int> orders() const;

@@ -21,7 +21,7 @@
 #include "linalg/generalized_eigen.hpp"
 #include "linalg/one_thread.hpp"
 #include "linalg/sparse.hpp"
-#include "model_io/matrix_market.hpp"
+#include "matrix_io/matrix_market.hpp"
 #include "ponte/generator.hpp"
 #include "sensitivity/channel_sensitivity.hpp"
 #include "sensitivity/frequency_jacobian.hpp"
@@ -67,8 +67,8 @@ void print_factor_size(const linalg::SparseMatrix& lower) {
 }
 
 int matrices(const std::string& folder) {
-  const linalg::SparseMatrix stiffness = model_io::read_matrix_market(folder + "/K.mtx");
-  const linalg::SparseMatrix mass = model_io::read_matrix_market(folder + "/M.mtx");
+  const linalg::SparseMatrix stiffness = matrix_io::read_matrix_market(folder + "/K.mtx");
+  const linalg::SparseMatrix mass = matrix_io::read_matrix_market(folder + "/M.mtx");
   linalg::Cholesky factor;
   linalg::EigenPairs pairs;
   std::printf("first_solve_s %.6f\n",

@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 
 #include <map>
+#include <numeric>
+#include <vector>
 
 #include "core/error.hpp"
 #include "records/universal.hpp"
@@ -27,7 +29,18 @@ long descriptor_of(const fe::Element& element) {
     case fe::ElementType::solid:
       break;
   }
-  return element.nodes.size() == 4 ? 111 : 115;
+  constexpr long tetrahedron = 111, hexahedron = 115, of_ten = 118, of_twenty = 116;
+  const std::size_t nodes = element.nodes.size();
+  return nodes == 4 ? tetrahedron : nodes == 8 ? hexahedron : nodes == 10 ? of_ten : of_twenty;
+}
+
+/// Positions of the nodes in the order of set 2412: round the bottom with the nodes on its edges, those between, the top.
+std::vector<std::size_t> order_of(std::size_t nodes) {
+  if (nodes == 10) return {0, 4, 1, 5, 2, 6, 7, 8, 9, 3};
+  if (nodes == 20) return {0, 8, 1, 9, 2, 10, 3, 11, 16, 17, 18, 19, 4, 12, 5, 13, 6, 14, 7, 15};
+  std::vector<std::size_t> order(nodes);
+  std::iota(order.begin(), order.end(), 0U);
+  return order;
 }
 
 void add_mesh(const fe::Model& model, records::UniversalData& universal) {
@@ -35,7 +48,8 @@ void add_mesh(const fe::Model& model, records::UniversalData& universal) {
   for (const fe::Node& node : model.nodes) universal.nodes[node.id] = node.x_m;
   for (const fe::Element& element : model.elements) {
     records::UniversalElement written{element.id, descriptor_of(element), {}};
-    for (const int node : element.nodes) written.nodes.push_back(model.nodes[static_cast<std::size_t>(node)].id);
+    for (const std::size_t i : order_of(element.nodes.size()))
+      written.nodes.push_back(model.nodes[static_cast<std::size_t>(element.nodes[i])].id);
     if (records::is_beam(written.descriptor)) {
       std::vector<long>& line = lines[element.group];
       if (!line.empty()) line.push_back(0);

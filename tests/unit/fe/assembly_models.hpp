@@ -1,5 +1,7 @@
 #pragma once
 
+#include <map>
+
 #include "fe/model.hpp"
 #include "linalg/sparse.hpp"
 
@@ -27,6 +29,27 @@ inline Element& add_element(Model& model, ElementType type, const std::string& g
   e.nodes = std::move(nodes);
   model.elements.push_back(e);
   return model.elements.back();
+}
+
+/// Ends of the edges that a quadratic solid has nodes on, by its corners (solid_quadratic.hpp). @param corners  4 or 8
+inline std::vector<std::array<std::size_t, 2>> edges_of_solid(std::size_t corners) {
+  if (corners == 4) return {{0, 1}, {1, 2}, {2, 0}, {0, 3}, {1, 3}, {2, 3}};
+  return {{0, 1}, {1, 2}, {2, 3}, {3, 0}, {4, 5}, {5, 6}, {6, 7}, {7, 4}, {0, 4}, {1, 5}, {2, 6}, {3, 7}};
+}
+
+/// Gives every solid of the model a node in the middle of each edge; neighbours share it.
+inline void make_quadratic(Model& model) {
+  std::map<std::pair<int, int>, int> middles;
+  for (Element& e : model.elements) {
+    if (e.type != ElementType::solid) continue;
+    const std::vector<int> corners = e.nodes;
+    for (const auto& [a, b] : edges_of_solid(corners.size())) {
+      const auto [at, fresh] = middles.try_emplace(std::minmax({corners[a], corners[b]}), 0);
+      const Eigen::Vector3d x = 0.5 * (model.nodes[slot(corners[a])].x_m + model.nodes[slot(corners[b])].x_m);
+      if (fresh) at->second = add_node(model, x.x(), x.y(), x.z());
+      e.nodes.push_back(at->second);
+    }
+  }
 }
 
 inline void fix(Model& model, int node, std::array<bool, 6> fixed = {true, true, true, true, true, true}) {

@@ -19,7 +19,7 @@ Eigen::VectorXd somewhere(const ParametricSystem& system) {
 
 /// Adds to one_of_everything what scales in a way of its own: a second stay of another strand that shares the parameters of the
 /// first, a tapered beam with offsets and a release, a tensioned bar, a block and a tetrahedron on the ground.
-void add_the_rest(Model& model) {
+void add_the_rest(Model& model, bool quadratic_solids) {
   model.materials.push_back({"spiral", 150e9, 60e9, 0.25, 9100.0});
   Section toe = model.sections[0], rope = model.sections[2];
   toe.name = "toe", rope.name = "rope";
@@ -43,6 +43,7 @@ void add_the_rest(Model& model) {
   test::add_element(model, ElementType::solid, "block", 1, -1, corners);
   test::add_element(model, ElementType::solid, "block", 1, -1,
                     {corners[4], corners[5], corners[6], test::add_node(model, 20.5, 0.5, 2.0)});
+  if (quadratic_solids) test::make_quadratic(model);
 }
 
 /// Parameters of each kind on it; those of one_of_everything name the new parts too.
@@ -57,11 +58,11 @@ void add_the_other_parameters(Model& model) {
   parameter("A_stay", Target::area, {"strand", "rope"}, 1.3e-3);
 }
 
-/// With consistent masses and the drilling penalty, or (true) with lumped masses and diagonal drilling.
+/// With consistent masses and the drilling penalty, or (true) with lumped masses, diagonal drilling and quadratic solids.
 class OneOfEverything : public ::testing::TestWithParam<bool> {
  protected:
   OneOfEverything() {
-    add_the_rest(model);
+    add_the_rest(model, GetParam());
     add_the_other_parameters(model);
     model.formulation.lumped_mass = GetParam();
     if (GetParam()) model.formulation.drilling = Formulation::Drilling::diagonal;

@@ -172,6 +172,13 @@ TEST(CommonFactor, GoesByShapeAlone) {
   EXPECT_TRUE(with_mac(MatrixXd::Identity(3, 6), Eigen::Vector3d(2.0, 4.0, 6.0)).has_value());
   EXPECT_EQ(with_mac(MatrixXd::Identity(3, 7), Eigen::Vector3d(2.0, 4.0, 6.0)), std::nullopt);
   EXPECT_EQ(with_mac(MatrixXd(0, 0), VectorXd()), std::nullopt);
+  // At few channels the first and the fourth computed mode have one shape, the fourth the more so: only the first has the
+  // factor.
+  MatrixXd repeated = MatrixXd::Identity(5, 3);
+  repeated(0, 0) = 0.95, repeated(3, 0) = 0.97;
+  const std::optional<std::string> found = with_mac(repeated, (VectorXd(5) << 2.0, 4.0, 6.0, 9.0, 10.0).finished());
+  ASSERT_TRUE(found.has_value());
+  EXPECT_TRUE(says(*found, "all 2 times the measured (2 to 2)"));
 }
 
 // Oracle: the header. Each of the three findings has a line, and where nothing was found there is none.

@@ -3,8 +3,8 @@
 ///   second.
 #include "model_io/matrix_model.hpp"
 
+#include "matrix_io/matrix_market.hpp"
 #include "model_io/export_matrices.hpp"
-#include "model_io/matrix_market.hpp"
 #include "model_io/read_model.hpp"
 #include "model_io/write_matrix_model.hpp"
 #include "test_folder.hpp"
@@ -129,9 +129,27 @@ TEST(MatrixModel, ExportedMatricesAreThoseOfTheParameters) {
   const fe::ParametricSystem system = read_matrix_model(folder.path());
   const Eigen::Vector2d theta(3.0, 0.0);
   write_matrices(system, theta, folder.path() / "out");
-  EXPECT_EQ(dense(read_matrix_market(folder.path() / "out/K.mtx")), dense(system.stiffness(theta)));
-  EXPECT_EQ(dense(read_matrix_market(folder.path() / "out/M.mtx")), dense(system.mass(theta)));
+  EXPECT_EQ(dense(matrix_io::read_matrix_market(folder.path() / "out/K.mtx")), dense(system.stiffness(theta)));
+  EXPECT_EQ(dense(matrix_io::read_matrix_market(folder.path() / "out/M.mtx")), dense(system.mass(theta)));
   EXPECT_EQ(folder.read("out/dofs.csv"), folder.read("dofs.csv"));
+}
+
+TEST(MatrixModel, TakesMatricesOfOutput4) {
+  const TestFolder folder;
+  folder.write("K.op4",
+               "       3       3       6       2KGG     1P,3E23.16\n"
+               "       1       1       4\n 4.0000000000000000E+00-1.0000000000000000E+00\n"
+               "       2       1       6\n-1.0000000000000000E+00 5.0000000000000000E+00-2.0000000000000000E+00\n"
+               "       3       2       4\n-2.0000000000000000E+00 6.0000000000000000E+00\n"
+               "       4       1       1\n 1.0000000000000000E+00\n");
+  folder.write("M.mtx", "%%MatrixMarket matrix coordinate real symmetric\n3 3 3\n1 1 1\n2 2 1\n3 3 1\n");
+  folder.write("dofs.csv", "dof,node,direction\n1,a,x\n2,b,x\n3,c,x\n");
+  folder.write("model.toml", "[matrices]\nK = \"K.op4\"\nM = \"M.mtx\"\n");
+  const fe::ParametricSystem system = read_matrix_model(folder.path());
+  EXPECT_EQ(system.stiffness(system.initial()).coeff(1, 0), -1.0);
+  folder.write("dofs.csv", "dof,node,direction\n1,a,x\n2,b,x\n");
+  const std::string message = message_of([&] { (void)read_matrix_model(folder.path()); });
+  EXPECT_NE(message.find("K.op4:1: is 3 x 3, but dofs.csv has 2 rows"), std::string::npos) << message;
 }
 
 }  // namespace

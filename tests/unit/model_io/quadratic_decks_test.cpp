@@ -3,12 +3,15 @@
 /// beams and solids, 2 % for shells.
 #include <array>
 #include <cmath>
+#include <map>
 #include <numbers>
 #include <set>
 
 #include "deck_table.hpp"
 #include "model_io/ansys.hpp"
 #include "model_io/inp.hpp"
+#include "model_io/read_model.hpp"
+#include "model_io/write_model.hpp"
 #include "nastran_deck.hpp"
 
 namespace twindeck::model_io::test::quadratic_decks {
@@ -62,6 +65,35 @@ Mesh solid_beam() {
   return mesh;
 }
 
+/// Six tetrahedra of ten nodes about the diagonal of each hexahedron of such a mesh.
+Mesh tetrahedra_of(const Mesh& hexahedra) {
+  constexpr std::array<std::array<std::size_t, 2>, 6> between = {{{1, 2}, {2, 3}, {3, 7}, {7, 4}, {4, 5}, {5, 1}}},
+                                                      edges = {{{0, 1}, {1, 2}, {2, 0}, {0, 3}, {1, 3}, {2, 3}}};
+  Mesh mesh;
+  for (const std::vector<int>& h : hexahedra.elements)
+    for (const auto& [b, c] : between) {
+      std::array<std::array<double, 3>, 4> x{};
+      for (std::size_t i = 0; i < 4; ++i)
+        x[i] = hexahedra.nodes[static_cast<std::size_t>(h[std::array{std::size_t{0}, b, c, std::size_t{6}}[i]]) - 1];
+      std::vector<int> nodes;
+      for (const auto& corner : x) nodes.push_back(mesh.node_at(corner[0], corner[1], corner[2]));
+      for (const auto& [i, j] : edges)
+        nodes.push_back(mesh.node_at(0.5 * (x[i][0] + x[j][0]), 0.5 * (x[i][1] + x[j][1]), 0.5 * (x[i][2] + x[j][2])));
+      mesh.elements.push_back(nodes);
+    }
+  return mesh;
+}
+
+/// The mesh pushed out of shape, so that no two edges are alike; four digits behind the point, as the cards have them.
+Mesh crooked(Mesh mesh) {
+  for (auto& x : mesh.nodes) {
+    const auto [a, b, c] = x;
+    x = {a * (1.0 + 0.1 * b - 0.15 * c), b * (1.0 + 0.03 * a) + 0.05 * c, c * (1.0 - 0.02 * a) + 0.1 * b * b};
+    for (double& at : x) at = std::round(1e4 * at) / 1e4;
+  }
+  return mesh;
+}
+
 const double plate_Hz = std::numbers::pi * std::sqrt(200e9 * 1e-6 / (12.0 * (1.0 - 0.09)) / (8000.0 * 0.01));
 /// Timoshenko's cantilever, as in decks_test.cpp: 0.5 m square, E 200 GPa, G 100 GPa.
 const std::vector<double> cantilever_Hz = {4.03187, 4.03187, 25.0236, 25.0236};
@@ -109,12 +141,18 @@ TEST(QuadraticDecks, AbaqusAndCalculixPlatesAndSolids) {
                            of_inp(inp_deck(solid_beam(), "C3D20R", false), 4), cantilever_Hz);
 }
 
-TEST(QuadraticDecks, NeighboursShareTheNodesInTheCentresOfFaces) {
+// C3D10 of six a box about its diagonal.
+TEST(QuadraticDecks, AbaqusAndCalculixTetrahedra) {
+  expect_known_frequencies({"Abaqus, CalculiX", "cantilever_c3d10", "Timoshenko's beam", solids},
+                           of_inp(inp_deck(tetrahedra_of(solid_beam()), "C3D10", false), 4), cantilever_Hz);
+}
+
+TEST(QuadraticDecks, SolidsStayAsTheyAre) {
   const TestFolder folder;
   folder.write("deck.inp", inp_deck(solid_beam(), "C3D20", false));
   const fe::Model model = read_inp(folder.path() / "deck.inp").model;
-  EXPECT_EQ(model.elements.size(), 80u);
-  EXPECT_EQ(model.nodes.size(), 21u * 9u);  // a grid of 21 × 3 × 3
+  EXPECT_EQ(model.elements.size(), 10u);
+  EXPECT_EQ(model.nodes.size(), solid_beam().nodes.size());
 }
 
 std::string nastran_deck(const Mesh& mesh, bool shell) {
@@ -125,7 +163,8 @@ std::string nastran_deck(const Mesh& mesh, bool shell) {
     std::vector<int> nodes = mesh.elements[i];
     // Nastran has the edges between bottom and top before those of the top.
     if (nodes.size() == 20) std::rotate(nodes.begin() + 12, nodes.begin() + 16, nodes.end());
-    deck += fmt::format("{},{},1", nodes.size() == 20 ? "CHEXA" : nodes.size() == 8 ? "CQUAD8" : "CTRIA6", i + 1);
+    const std::map<std::size_t, const char*> names = {{20, "CHEXA"}, {10, "CTETRA"}, {8, "CQUAD8"}, {6, "CTRIA6"}};
+    deck += fmt::format("{},{},1", names.at(nodes.size()), i + 1);
     for (std::size_t k = 0; k < nodes.size(); ++k) deck += fmt::format("{},{}", k == 6 || k == 14 ? "\n" : "", nodes[k]);
     deck += "\n";
   }
@@ -149,8 +188,8 @@ TEST(QuadraticDecks, NastranPlatesAndSolids) {
 }
 
 std::string ansys_deck(const Mesh& mesh, bool shell) {
-  std::string deck =
-      shell ? "/PREP7\nET,1,SHELL281\nSECTYPE,1,SHELL\nSECDATA,0.01\nMP,PRXY,1,0.3\n" : "/PREP7\nET,1,SOLID186\nMP,PRXY,1,0\n";
+  std::string deck = shell ? "/PREP7\nET,1,SHELL281\nSECTYPE,1,SHELL\nSECDATA,0.01\nMP,PRXY,1,0.3\n"
+                           : fmt::format("/PREP7\nET,1,SOLID{}\nMP,PRXY,1,0\n", mesh.elements.front().size() == 10 ? 187 : 186);
   deck += "MP,EX,1,2E11\nMP,DENS,1,8000\n";
   for (std::size_t i = 0; i < mesh.nodes.size(); ++i)
     deck += fmt::format("N,{},{},{},{}\n", i + 1, mesh.nodes[i][0], mesh.nodes[i][1], mesh.nodes[i][2]);
@@ -166,11 +205,86 @@ std::string ansys_deck(const Mesh& mesh, bool shell) {
   return deck + (shell ? "D,1,UX,,,,,UY\nD,2,UY\n" : "") + "FINISH\n/SOLU\nANTYPE,MODAL\nSOLVE\n";
 }
 
+TEST(QuadraticDecks, NastranAndAnsysTetrahedra) {
+  const TestFolder folder;
+  const Mesh mesh = tetrahedra_of(solid_beam());
+  expect_known_frequencies({"Nastran", "cantilever_ctetra10", "Timoshenko's beam", solids},
+                           frequencies(import_deck(folder, nastran_deck(mesh, false)).model, 4), cantilever_Hz);
+  expect_known_frequencies({"ANSYS", "cantilever_solid187", "Timoshenko's beam", solids}, of_ansys(ansys_deck(mesh, false), 4),
+                           cantilever_Hz);
+}
+
 TEST(QuadraticDecks, AnsysPlatesAndSolids) {
   expect_known_frequencies({"ANSYS", "plate_shell281", "closed form", shells}, of_ansys(ansys_deck(plate(4, false), true), 1),
                            {plate_Hz});
   expect_known_frequencies({"ANSYS", "cantilever_solid186", "Timoshenko's beam", solids},
                            of_ansys(ansys_deck(solid_beam(), false), 4), cantilever_Hz);
+}
+
+/// The tetrahedron that SOLID186 writes as a hexahedron of repeated nodes.
+std::vector<int> as_hexahedron(const std::vector<int>& t) {
+  return {t[0], t[1], t[2], t[2], t[3], t[3], t[3], t[3], t[4], t[5],
+          t[2], t[6], t[3], t[3], t[3], t[3], t[7], t[8], t[9], t[9]};
+}
+
+// One crooked brick of two elements: whichever dialect writes it, and from a model folder, it is one model to the last digits.
+TEST(QuadraticDecks, OneBrickInEveryDialect) {
+  Mesh beam = solid_beam();
+  beam.elements.resize(2);
+  beam.nodes.resize(32);  // of the first two elements
+  for (const bool tetrahedra : {false, true}) {
+    const Mesh brick = crooked(tetrahedra ? tetrahedra_of(beam) : beam);
+    const TestFolder folder;
+    folder.write("deck.inp", inp_deck(brick, tetrahedra ? "C3D10" : "C3D20", false));
+    const fe::Model model = read_inp(folder.path() / "deck.inp").model;
+    std::filesystem::create_directories(folder.path() / "model");
+    write_model(model, folder.path() / "model");
+    (void)write_inp(model, {}, InpFlavour::calculix, 6, folder.path() / "again.inp");
+    const std::vector<double> known = frequencies(model, 6);
+    // The decks of ANSYS come last: they are read in this test's folder too, which is empty then.
+    std::vector<std::vector<double>> others = {
+        frequencies(read_model(folder.path() / "model"), 6), frequencies(read_inp(folder.path() / "again.inp").model, 6),
+        frequencies(import_deck(folder, nastran_deck(brick, false)).model, 6), of_ansys(ansys_deck(brick, false), 6)};
+    if (tetrahedra) {
+      Mesh written = brick;
+      for (std::vector<int>& nodes : written.elements) nodes = as_hexahedron(nodes);
+      others.push_back(of_ansys(ansys_deck(written, false), 6));
+    }
+    for (const std::vector<double>& found : others)
+      for (std::size_t i = 0; i < 6; ++i) EXPECT_NEAR(found.at(i), known.at(i), 1e-8 * known.at(i)) << tetrahedra << i;
+  }
+}
+
+// A pressure of 12 on the unit square of eight nodes: -1/12 of it at each corner, 1/3 at each middle of an edge. On a triangle
+// of six nodes: nothing at the corners, a third at each middle.
+TEST(QuadraticDecks, PressureOnAFaceGoesToItsNodes) {
+  Mesh beam = solid_beam();
+  beam.elements.resize(1);
+  beam.nodes.resize(20);
+  const auto loads = [](const Mesh& mesh, const std::string& type, const std::string& face) {
+    std::string deck = inp_deck(mesh, type, false);
+    deck = deck.substr(0, deck.find("*STEP")) + "*STEP, NLGEOM\n*STATIC\n*DLOAD\n1, " + face + ", 12.\n*END STEP\n" + modes;
+    const TestFolder folder;
+    folder.write("deck.inp", deck);
+    std::map<int, double> z;  // by node, times the area of 0.5 m2
+    for (const fe::Prestress::Load& load : read_inp(folder.path() / "deck.inp").model.prestress.loads)
+      if (load.direction == 2) z[load.node] = load.value / 0.5;
+    return z;
+  };
+  const auto of_square = loads(beam, "C3D20R", "P2");  // the top, of nodes 5 to 8 and 13 to 16
+  ASSERT_EQ(of_square.size(), 8u);
+  for (int i = 0; i < 4; ++i) {
+    EXPECT_NEAR(of_square.at(4 + i), 1.0, 1e-12);
+    EXPECT_NEAR(of_square.at(12 + i), -4.0, 1e-12);
+  }
+  Mesh one = tetrahedra_of(beam);
+  one.elements = {one.elements[0]};  // 1-2-3 is half of the bottom
+  double sum = 0.0;
+  for (const auto& [node, value] : loads(one, "C3D10", "P1")) {
+    EXPECT_TRUE(std::abs(value) < 1e-12 || std::abs(value - 2.0) < 1e-12) << node << " " << value;
+    sum += value;
+  }
+  EXPECT_NEAR(sum, 6.0, 1e-12);
 }
 
 /// Euler's cantilever [Hz], first two modes.

@@ -71,6 +71,36 @@ TEST(SolidFolder, TetrahedraComeBackFromFolderAndInp) {
   EXPECT_EQ(read_inp(folder.path() / "again.inp").model.elements.at(0).nodes, model.elements[0].nodes);
 }
 
+// Twenty nodes: the corners of the cube, and the middles of its edges in the order of VTK_QUADRATIC_HEXAHEDRON.
+fe::Model quadratic_cube() {
+  fe::Model model = cube();
+  const std::vector<std::array<int, 2>> edges = {{0, 1}, {1, 2}, {2, 3}, {3, 0}, {4, 5}, {5, 6},
+                                                 {6, 7}, {7, 4}, {0, 4}, {1, 5}, {2, 6}, {3, 7}};
+  for (const auto& [a, b] : edges) {
+    const Eigen::Vector3d x = 0.5 * (model.nodes[fe::slot(a)].x_m + model.nodes[fe::slot(b)].x_m);
+    model.elements[0].nodes.push_back(static_cast<int>(model.nodes.size()));
+    model.nodes.push_back({static_cast<long>(model.nodes.size()) + 1, x});
+  }
+  return model;
+}
+
+TEST(SolidFolder, SolidsOfTwentyNodesComeBackFromFolderAndInp) {
+  const TestFolder folder;
+  const fe::Model model = quadratic_cube();
+  write_model(model, folder.path());
+  EXPECT_EQ(read_model(folder.path()).elements.at(0).nodes, model.elements[0].nodes);
+  fe::Model alone = model;
+  alone.elements.resize(1);
+  for (const auto& [flavour, file] : {std::pair{InpFlavour::abaqus, "a.inp"}, {InpFlavour::calculix, "c.inp"}}) {
+    (void)write_inp(alone, {}, flavour, 3, folder.path() / file);
+    EXPECT_NE(folder.read(file).find("TYPE=C3D20,"), std::string::npos) << folder.read(file);
+    EXPECT_EQ(read_inp(folder.path() / file).model.elements.at(0).nodes, model.elements[0].nodes);
+  }
+  const std::string row = "concrete,,1,2,3,4,5,6,7,8,9,10,11,12,13,14,15,16,17,18,19,20";
+  folder.edit("elements.csv", row, "concrete,,1,2,3,4,5,6,7,8,9,10,11,12,13,14,15,16,17,18,19,");
+  EXPECT_NE(message_of([&] { (void)read_model(folder.path()); }).find("elements.csv:2: node20"), std::string::npos);
+}
+
 TEST(TaperedFolder, ComesBackAsItWas) {
   const TestFolder folder;
   fe::Model model = cube();
@@ -103,6 +133,9 @@ TEST(SolidFolder, FaultsNameLineAndColumn) {
   EXPECT_NE(says("concrete,,1", "concrete,rod,1").find("elements.csv:2: section: is filled, but a solid has no section"),
             std::string::npos);
   EXPECT_NE(says("concrete,,1,2,3,4,5,6,7,8", "concrete,,1,2,3,4,5,6,7,").find("elements.csv:2: node8"), std::string::npos);
+  EXPECT_NE(says("concrete,,1,2,3,4,5,6,7,8", "concrete,,1,2,3,4,,6,7,8")
+                .find("elements.csv:2: node6: is filled, but a solid has four, eight, ten or twenty nodes"),
+            std::string::npos);
   EXPECT_NE(says("rod,5,7,,", "rod,5,7,,3").find("elements.csv:3: node4: is filled, but a bar has two nodes"),
             std::string::npos);
 }
@@ -122,6 +155,21 @@ TEST(SolidFolder, IsAHexahedronInParaView) {
   EXPECT_NE(text.find("Name=\"connectivity\" format=\"ascii\">\n0 1 2 3 4 5 6 7\n4 6\n"), std::string::npos);
   EXPECT_NE(text.find("Name=\"offsets\" format=\"ascii\">\n8\n10\n"), std::string::npos);
   EXPECT_NE(text.find("Name=\"types\" format=\"ascii\">\n12\n3\n"), std::string::npos);
+}
+
+TEST(SolidFolder, QuadraticSolidsHaveTheirCellsInParaView) {
+  const TestFolder folder;
+  const fe::Model model = quadratic_cube();
+  const auto size = 6 * static_cast<int>(model.nodes.size());
+  fe::ParametricSystem system;
+  system.pattern.resize(size, size);
+  system.expansion.resize(size, size);
+  system.expansion.setIdentity();
+  dynamics::EigenModes modes;
+  modes.frequency_Hz = Eigen::VectorXd::Constant(1, 1.0);
+  modes.shapes = Eigen::VectorXd::Unit(size, 0);
+  write_vtu(model, system, modes, folder.path() / "model.vtu");
+  EXPECT_NE(folder.read("model.vtu").find("Name=\"types\" format=\"ascii\">\n25\n3\n"), std::string::npos);
 }
 
 }  // namespace

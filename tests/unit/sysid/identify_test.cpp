@@ -172,6 +172,17 @@ TEST(Identify, AFrequencyThatTheRecordLeavesOpenIsNoMode) {
   EXPECT_TRUE(stays(1.0, 0.05, deviation, 150.0, options()));  // a short record knows no mode better
 }
 
+// A pole of noise in a free decay, 22.09 Hz and 1.03 %: its frequency is known to half of the half bandwidth, its damping may
+// be none.
+TEST(Identify, AMotionThatMayNotDecayIsNoModeOfADecay) {
+  ModeDeviation deviation;
+  deviation.frequency_Hz = 0.1096;
+  deviation.damping_ratio = 0.018;
+  EXPECT_FALSE(stays(22.09, 0.0103, deviation, 0.0, options()));
+  deviation.damping_ratio = 0.009;
+  EXPECT_TRUE(stays(22.09, 0.0103, deviation, 0.0, options()));
+}
+
 TEST(Identify, ChainUnderWhiteNoise) {
   const double rate = 20.0, zeta = 0.01;
   const test::Chain chain(4, 25.0, zeta, rate);

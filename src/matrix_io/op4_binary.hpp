@@ -12,7 +12,7 @@
 /// of type 1 have a word, those of type 2 eight bytes. A string begins with one word, row + 65536 (words + 1), or with two in
 /// BIGMAT (NROW below 0), words + 1 and row. The last record has the number of a column behind the last.
 /// Source: NX Nastran User's Guide, "OUTPUT4 binary files"; as of formatted files otherwise (op4.hpp).
-namespace twindeck::model_io {
+namespace twindeck::matrix_io {
 
 /// Whether the file begins with a record of 24 or 48 bytes. False for a file that cannot be read.
 [[nodiscard]] bool is_binary_op4(const std::filesystem::path& file);
@@ -21,4 +21,4 @@ namespace twindeck::model_io {
 /// Rows of the matrix by its header alone. @throws InputError as above
 [[nodiscard]] Eigen::Index binary_op4_rows(const std::filesystem::path& file);
 
-}  // namespace twindeck::model_io
+}  // namespace twindeck::matrix_io

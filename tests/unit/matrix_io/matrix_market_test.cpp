@@ -1,10 +1,13 @@
 /// Oracles: identity of bits for the round trip; the format's own definition for what is read and refused.
-#include "model_io/matrix_market.hpp"
+#include "matrix_io/matrix_market.hpp"
 
-#include "test_folder.hpp"
+#include "unit/model_io/test_folder.hpp"
 
-namespace twindeck::model_io::test {
+namespace twindeck::matrix_io::test {
 namespace {
+
+using model_io::test::message_of;
+using model_io::test::TestFolder;
 
 linalg::SparseMatrix lower_of(const Eigen::MatrixXd& dense) {
   linalg::SparseMatrix lower = Eigen::MatrixXd(dense.triangularView<Eigen::Lower>()).sparseView();
@@ -86,4 +89,4 @@ TEST(MatrixMarket, BelievesNoSizeLine) {
 }
 
 }  // namespace
-}  // namespace twindeck::model_io::test
+}  // namespace twindeck::matrix_io::test

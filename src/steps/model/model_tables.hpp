@@ -7,7 +7,7 @@
 #include "dynamics/loaded_model.hpp"
 
 /// Tables about a model, for people and reports; nothing reads a model from them.
-namespace twindeck::model_io {
+namespace twindeck::steps {
 
 /// The part of a structure that a group of elements or springs belongs to.
 using PartOf = std::function<std::string(const std::string& group)>;
@@ -29,4 +29,4 @@ using PartOf = std::function<std::string(const std::string& group)>;
 /// @param part_of  empty: parts are not known
 void write_model_tables(const dynamics::LoadedModel& loaded, const PartOf& part_of, const std::filesystem::path& folder);
 
-}  // namespace twindeck::model_io
+}  // namespace twindeck::steps

@@ -1,4 +1,4 @@
-#include "model_io/model_tables.hpp"
+#include "steps/model/model_tables.hpp"
 
 #include <map>
 #include <optional>
@@ -7,7 +7,7 @@
 #include "io/csv.hpp"
 #include "model_io/names.hpp"
 
-namespace twindeck::model_io {
+namespace twindeck::steps {
 namespace {
 
 std::string stay_name(const fe::Element& element) { return element.name.empty() ? std::to_string(element.id) : element.name; }
@@ -86,7 +86,7 @@ void write_summary(const fe::Model* model, const fe::ParametricSystem& system, c
     summary.save(folder / "summary.csv");
     return;
   }
-  const std::vector<std::string>& types = element_type_names();
+  const std::vector<std::string>& types = model_io::element_type_names();
   std::vector<std::size_t> of_type(types.size(), 0);
   std::map<std::string, PartCount> parts;
   for (const fe::Element& e : model->elements) {
@@ -124,4 +124,4 @@ void write_model_tables(const dynamics::LoadedModel& loaded, const PartOf& part_
   write_summary(model, loaded.system, part_of, folder);
 }
 
-}  // namespace twindeck::model_io
+}  // namespace twindeck::steps

@@ -1,4 +1,4 @@
-#include "model_io/op4.hpp"
+#include "matrix_io/op4.hpp"
 
 #include <fmt/format.h>
 
@@ -10,12 +10,12 @@
 #include <vector>
 
 #include "core/error.hpp"
+#include "io/letters.hpp"
 #include "io/regular_file.hpp"
-#include "model_io/deck_card.hpp"
-#include "model_io/op4_binary.hpp"
-#include "model_io/op4_entries.hpp"
+#include "matrix_io/op4_binary.hpp"
+#include "matrix_io/op4_entries.hpp"
 
-namespace twindeck::model_io {
+namespace twindeck::matrix_io {
 namespace {
 
 constexpr std::size_t header_width = 8;  ///< columns of each number of the header
@@ -81,7 +81,7 @@ class Op4Reader {
       fail(fmt::format("is {} x {}", std::abs(rows), columns), "a square matrix is expected");
     rows_ = entries_.rows = columns;
     words_ = type == 2 ? 2 : 1;
-    const std::string format = upper_case(line_text_.substr(std::min(line_text_.size(), 5 * header_width)));
+    const std::string format = io::upper_case(line_text_.substr(std::min(line_text_.size(), 5 * header_width)));
     const auto e = format.find_first_of("ED");
     const auto [end, error] = e == std::string::npos
                                   ? std::from_chars_result{nullptr, std::errc::invalid_argument}
@@ -179,6 +179,6 @@ Eigen::Index op4_rows(const std::filesystem::path& file) {
   return is_binary_op4(file) ? binary_op4_rows(file) : Op4Reader(file).rows();
 }
 
-bool is_op4(const std::filesystem::path& file) { return upper_case(file.extension().string()) == ".OP4"; }
+bool is_op4(const std::filesystem::path& file) { return io::upper_case(file.extension().string()) == ".OP4"; }
 
-}  // namespace twindeck::model_io
+}  // namespace twindeck::matrix_io

@@ -1,11 +1,11 @@
-#include "model_io/op4_entries.hpp"
+#include "matrix_io/op4_entries.hpp"
 
 #include <fmt/format.h>
 
 #include "core/error.hpp"
-#include "model_io/matrix_market.hpp"
+#include "matrix_io/matrix_market.hpp"
 
-namespace twindeck::model_io {
+namespace twindeck::matrix_io {
 
 linalg::SparseMatrix Op4Entries::assembled(const std::string& file) const {
   bool below = false, above = false;
@@ -22,4 +22,4 @@ linalg::SparseMatrix Op4Entries::assembled(const std::string& file) const {
   });
 }
 
-}  // namespace twindeck::model_io
+}  // namespace twindeck::matrix_io

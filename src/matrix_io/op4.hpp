@@ -4,7 +4,7 @@
 
 #include "linalg/sparse.hpp"
 
-namespace twindeck::model_io {
+namespace twindeck::matrix_io {
 
 /// Symmetric matrices that Nastran writes by OUTPUT4, formatted or binary: dense columns, strings of nonzeros, and BIGMAT.
 ///
@@ -21,4 +21,4 @@ namespace twindeck::model_io {
 /// Whether a file is OUTPUT4 by its ending, .op4.
 [[nodiscard]] bool is_op4(const std::filesystem::path& file);
 
-}  // namespace twindeck::model_io
+}  // namespace twindeck::matrix_io

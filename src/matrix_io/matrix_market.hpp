@@ -7,7 +7,7 @@
 
 #include "linalg/sparse.hpp"
 
-namespace twindeck::model_io {
+namespace twindeck::matrix_io {
 
 /// Symmetric matrices in Matrix Market coordinate form (Boisvert, Pozo and Remington 1996, NISTIR 5935).
 ///
@@ -53,4 +53,4 @@ void write_full_matrix_market(const linalg::SparseMatrix& full, const std::files
 /// Writes `coordinate real general` with 17 digits.
 void write_square_matrix(const Eigen::Ref<const Eigen::MatrixXd>& matrix, const std::filesystem::path& file);
 
-}  // namespace twindeck::model_io
+}  // namespace twindeck::matrix_io

@@ -1,4 +1,4 @@
-#include "model_io/matrix_market.hpp"
+#include "matrix_io/matrix_market.hpp"
 
 #include <fmt/format.h>
 
@@ -11,10 +11,10 @@
 
 #include "core/error.hpp"
 #include "io/atomic.hpp"
+#include "io/letters.hpp"
 #include "io/regular_file.hpp"
-#include "model_io/deck_card.hpp"
 
-namespace twindeck::model_io {
+namespace twindeck::matrix_io {
 namespace {
 
 struct Entry {
@@ -41,8 +41,9 @@ class MarketReader {
     std::string line, mark, object, format, field, symmetry;
     next(line);
     std::istringstream(line) >> mark >> object >> format >> field >> symmetry;
-    if (lower_case(mark) != "%%matrixmarket") fail("is no Matrix Market file", "its first line must begin with %%MatrixMarket");
-    const std::string kind = lower_case(object + " " + format + " " + field + " " + symmetry);
+    if (io::lower_case(mark) != "%%matrixmarket")
+      fail("is no Matrix Market file", "its first line must begin with %%MatrixMarket");
+    const std::string kind = io::lower_case(object + " " + format + " " + field + " " + symmetry);
     if (kind == "matrix coordinate real symmetric" || kind == "matrix coordinate integer symmetric") return true;
     if (kind == "matrix coordinate real general" || kind == "matrix coordinate integer general") return false;
     fail("holds a '" + kind + "'", "write it as 'matrix coordinate real symmetric' (or general with symmetric numbers)");
@@ -279,4 +280,4 @@ void write_full_matrix_market(const linalg::SparseMatrix& full, const std::files
   }
 }
 
-}  // namespace twindeck::model_io
+}  // namespace twindeck::matrix_io

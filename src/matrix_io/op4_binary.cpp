@@ -1,4 +1,4 @@
-#include "model_io/op4_binary.hpp"
+#include "matrix_io/op4_binary.hpp"
 
 #include <fmt/format.h>
 
@@ -12,9 +12,9 @@
 
 #include "core/error.hpp"
 #include "io/regular_file.hpp"
-#include "model_io/op4_entries.hpp"
+#include "matrix_io/op4_entries.hpp"
 
-namespace twindeck::model_io {
+namespace twindeck::matrix_io {
 namespace {
 
 constexpr std::size_t marker_bytes = 4;                    ///< of a record's length
@@ -169,4 +169,4 @@ linalg::SparseMatrix read_binary_op4(const std::filesystem::path& file) { return
 
 Eigen::Index binary_op4_rows(const std::filesystem::path& file) { return BinaryOp4(file).rows(); }
 
-}  // namespace twindeck::model_io
+}  // namespace twindeck::matrix_io

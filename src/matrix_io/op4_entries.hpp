@@ -7,7 +7,7 @@
 #include "linalg/sparse.hpp"
 
 /// Inside of the library: the entries of an OUTPUT4 file, formatted or binary.
-namespace twindeck::model_io {
+namespace twindeck::matrix_io {
 
 struct Op4Entries {
   long rows = 0;
@@ -21,4 +21,4 @@ struct Op4Entries {
   [[nodiscard]] linalg::SparseMatrix assembled(const std::string& file) const;
 };
 
-}  // namespace twindeck::model_io
+}  // namespace twindeck::matrix_io

@@ -1,6 +1,6 @@
 /// Oracle: a matrix written out by hand in each of the three forms of OUTPUT4, whose numbers are integers that text holds
 /// exactly.
-#include "model_io/op4.hpp"
+#include "matrix_io/op4.hpp"
 
 #include <fmt/format.h>
 
@@ -8,12 +8,14 @@
 #include <cstdint>
 #include <initializer_list>
 
-#include "model_io/matrix_market.hpp"
-#include "model_io/matrix_model.hpp"
-#include "test_folder.hpp"
+#include "matrix_io/matrix_market.hpp"
+#include "unit/model_io/test_folder.hpp"
 
-namespace twindeck::model_io::test {
+namespace twindeck::matrix_io::test {
 namespace {
+
+using model_io::test::message_of;
+using model_io::test::TestFolder;
 
 const std::string op4_header = "       3       3       6       2KGG     1P,3E23.16\n";
 const std::string op4_end = "       4       1       1\n 1.0000000000000000E+00\n";
@@ -177,19 +179,6 @@ TEST(Op4, DamagedBinaryFilesNameTheirByte) {
   expect(twice.bytes(), "entry (1, 1) stands twice");
 }
 
-TEST(Op4, AMatrixModelTakesIt) {
-  const TestFolder folder;
-  folder.write("K.op4", op4_header + strings + op4_end);
-  folder.write("M.mtx", "%%MatrixMarket matrix coordinate real symmetric\n3 3 3\n1 1 1\n2 2 1\n3 3 1\n");
-  folder.write("dofs.csv", "dof,node,direction\n1,a,x\n2,b,x\n3,c,x\n");
-  folder.write("model.toml", "[matrices]\nK = \"K.op4\"\nM = \"M.mtx\"\n");
-  const fe::ParametricSystem system = read_matrix_model(folder.path());
-  EXPECT_EQ(system.stiffness(system.initial()).coeff(1, 0), -1.0);
-  folder.write("dofs.csv", "dof,node,direction\n1,a,x\n2,b,x\n");
-  const std::string message = message_of([&] { (void)read_matrix_model(folder.path()); });
-  EXPECT_NE(message.find("K.op4:1: is 3 x 3, but dofs.csv has 2 rows"), std::string::npos) << message;
-}
-
 TEST(Op4, RefusalsNameTheirLine) {
   const TestFolder folder;
   const auto expect = [&](const std::string& text, const std::string& words) {
@@ -214,4 +203,4 @@ TEST(Op4, RefusalsNameTheirLine) {
 }
 
 }  // namespace
-}  // namespace twindeck::model_io::test
+}  // namespace twindeck::matrix_io::test
