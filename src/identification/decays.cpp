@@ -32,16 +32,16 @@ double common_mac(const Eigen::VectorXcd& a, const std::vector<records::Campaign
 
 void read_by_amplitude(DecayResult& result, const Eigen::MatrixXd& decay, double rate_Hz, const std::string& record,
                        const IdentificationSettings& config, const ConditionResult* ambient) {
-  for (const sysid::Cluster& mode : result.found.modes) {
+  for (const Cluster& mode : result.found.modes) {
     // Neighbours closer than the filter can tell apart beat in its band.
-    const bool alone = std::all_of(result.found.modes.begin(), result.found.modes.end(), [&](const sysid::Cluster& other) {
+    const bool alone = std::all_of(result.found.modes.begin(), result.found.modes.end(), [&](const Cluster& other) {
       return &other == &mode || std::abs(other.frequency_Hz - mode.frequency_Hz) > 1.5 * config.decay_band_Hz;
     });
     if (!alone || mode.frequency_Hz < 2.0 * config.decay_band_Hz) continue;
-    const sysid::DecayingCoordinate q =
-        sysid::decaying_coordinate(decay, rate_Hz, mode.shape, mode.frequency_Hz, mode.damping_ratio, config.decay_band_Hz);
+    const DecayingCoordinate q =
+        decaying_coordinate(decay, rate_Hz, mode.shape, mode.frequency_Hz, mode.damping_ratio, config.decay_band_Hz);
     const auto points =
-        sysid::decay_by_amplitude(q.value, rate_Hz, 0.5 / config.decay_band_Hz, static_cast<int>(config.decay_bands), q.noise);
+        decay_by_amplitude(q.value, rate_Hz, 0.5 / config.decay_band_Hz, static_cast<int>(config.decay_bands), q.noise);
     if (points.empty()) continue;
     const auto partner = partner_of(mode, result.conditioned.channels, ambient);
     result.by_amplitude.push_back({partner ? std::to_string(partner->mode + 1) : "", record, mode.frequency_Hz, points});
@@ -74,7 +74,7 @@ Index release_sample(const Samples& data, double rate_Hz) {
 
 /// Samples until the motion is down to three times what is left at the end; all where it does not come to rest.
 Index decaying_samples(const Eigen::MatrixXd& decay) {
-  constexpr double kAbove = 9.0;  // of the mean square at the end
+  constexpr double kAboveTheRest = 9.0;  // of the mean square at the end
   constexpr Index kWindows = 50;
   const Eigen::VectorXd energy = energy_of(decay);
   const Index window = energy.size() / kWindows;
@@ -82,7 +82,7 @@ Index decaying_samples(const Eigen::MatrixXd& decay) {
   const double rest = energy.tail(energy.size() / 10).mean();
   Index end = 0;
   for (Index w = 0; w < kWindows; ++w) {
-    if (energy.segment(w * window, window).mean() > kAbove * rest) end = (w + 1) * window;
+    if (energy.segment(w * window, window).mean() > kAboveTheRest * rest) end = (w + 1) * window;
   }
   return end == 0 || 10 * end > 9 * energy.size() ? energy.size() : end;
 }
@@ -113,7 +113,7 @@ Index length_of(const std::vector<Eigen::MatrixXd>& decays, double rate_Hz, Iden
 
 }  // namespace
 
-std::optional<AmbientPartner> partner_of(const sysid::Cluster& mode, const std::vector<records::CampaignChannel>& channels,
+std::optional<AmbientPartner> partner_of(const Cluster& mode, const std::vector<records::CampaignChannel>& channels,
                                          const ConditionResult* ambient) {
   std::optional<AmbientPartner> best;
   if (ambient == nullptr) return best;
@@ -155,7 +155,7 @@ std::vector<ConditionResult> decay_conditions(std::vector<DecayResult>& decays) 
     const ConditionResult* result = condition_named(results, decay.conditioned.condition);
     for (DecayResult::ByAmplitude& by : decay.by_amplitude) {
       const auto mode = std::find_if(decay.found.modes.begin(), decay.found.modes.end(),
-                                     [&](const sysid::Cluster& m) { return m.frequency_Hz == by.frequency_Hz; });
+                                     [&](const Cluster& m) { return m.frequency_Hz == by.frequency_Hz; });
       const auto partner = partner_of(*mode, decay.conditioned.channels, result);
       if (partner) by.mode = std::to_string(partner->mode + 1);
     }
@@ -192,8 +192,8 @@ std::vector<DecayResult> identify_free_decays(const std::vector<Conditioned>& re
         quiet.emplace_back(rest.rowwise() - rest.colwise().mean());
       }
     }
-    const sysid::IdentifyOptions options = own.options(conditioned.rate_Hz, conditioned.channels);
-    result.found = sysid::identify_decays(pieces, conditioned.rate_Hz, options, seed, quiet);
+    const IdentifyOptions options = own.options(conditioned.rate_Hz, conditioned.channels);
+    result.found = identify_decays(pieces, conditioned.rate_Hz, options, seed, quiet);
     to_physical_shapes(result.found, conditioned.channels, scale);
     take_choices(result.found, config.choices, conditioned, scale);
     const ConditionResult* ambient = condition_named(results, conditioned.condition);
@@ -210,15 +210,15 @@ std::vector<AmbientAmplitude> ambient_amplitudes(const std::vector<ConditionResu
   std::vector<AmbientAmplitude> amplitudes;
   for (const ConditionResult& result : results) {
     for (std::size_t m = 0; m < result.modes.size(); ++m) {
-      const sysid::MergedMode& mode = result.modes[m];
+      const MergedMode& mode = result.modes[m];
       const SetupResult& setup = result.setups[mode.members.front().first];
-      const sysid::Cluster& own = setup.found.modes[mode.members.front().second];
+      const Cluster& own = setup.found.modes[mode.members.front().second];
       double squares = 0.0, seconds = 0.0;
       for (const Samples& record : setup.conditioned.records) {
         // Wide enough for the mode's half-power band, no wider than the filter of the decays.
         const double half_width = std::max(0.25 * config.decay_band_Hz, 2.0 * mode.damping_ratio * mode.frequency_Hz);
         const Eigen::VectorXcd q =
-            sysid::modal_coordinate(record, setup.conditioned.rate_Hz, own.shape, mode.frequency_Hz, half_width);
+            modal_coordinate(record, setup.conditioned.rate_Hz, own.shape, mode.frequency_Hz, half_width);
         squares += q.squaredNorm() / setup.conditioned.rate_Hz;
         seconds += static_cast<double>(record.rows()) / setup.conditioned.rate_Hz;
       }

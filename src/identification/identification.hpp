@@ -4,12 +4,12 @@
 #include <vector>
 
 #include "core/samples.hpp"
+#include "identification/efdd.hpp"
 #include "identification/identification_settings.hpp"
+#include "identification/identify.hpp"
 #include "identification/quality.hpp"
 #include "records/campaign.hpp"
 #include "signal/welch.hpp"
-#include "sysid/efdd.hpp"
-#include "sysid/identify.hpp"
 
 /// Records of a campaign to modes with standard deviations: judged, made ready, identified setup by setup, merged; free decays
 /// and stays beside them. It takes records as the campaign's reader gives them; it gives modes, spectra and the quality of the
@@ -46,7 +46,7 @@ struct Conditioned {
 /// the group has measured inputs. Records are pooled. Shapes are brought to the first channel's quantity: with lambda the pole,
 /// a velocity is lambda times a displacement.
 /// @throws InputError  if the records are too short or the orders too large
-[[nodiscard]] sysid::Identification identify_modes(const Conditioned& conditioned, const IdentificationSettings& config);
+[[nodiscard]] Identification identify_modes(const Conditioned& conditioned, const IdentificationSettings& config);
 
 /// A shape over scaled channels (value = recorded / scale) as a physical one of the first channel's quantity, unit norm.
 [[nodiscard]] Eigen::VectorXcd physical_shape(const Eigen::VectorXcd& shape,
@@ -54,7 +54,7 @@ struct Conditioned {
                                               const Eigen::VectorXd& scale, double frequency_Hz, double damping_ratio);
 /// Brings shapes of scaled channels (value = recorded / scale) to physical ones of the first channel's quantity, deviations
 /// with them.
-void to_physical_shapes(sysid::Identification& found, const std::vector<records::CampaignChannel>& channels,
+void to_physical_shapes(Identification& found, const std::vector<records::CampaignChannel>& channels,
                         const Eigen::VectorXd& scale);
 
 /// All that is known of the records but the samples.
@@ -67,6 +67,6 @@ void to_physical_shapes(sysid::Identification& found, const std::vector<records:
 [[nodiscard]] signal::PowerSpectra average_spectra(const Conditioned& conditioned, const IdentificationSettings& config);
 
 /// Singular values of the cross spectral matrix, channels scaled to unit RMS: [1/Hz].
-[[nodiscard]] sysid::SingularSpectra singular_spectra(const Conditioned& conditioned, const IdentificationSettings& config);
+[[nodiscard]] SingularSpectra singular_spectra(const Conditioned& conditioned, const IdentificationSettings& config);
 
 }  // namespace twindeck::identification

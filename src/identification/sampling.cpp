@@ -30,8 +30,8 @@ constexpr Kind kDecay{30.0, 12.0, 0.5, true};
 constexpr double kWidestBand = 16.0;
 /// Lines below which nobody tells a peak from drift.
 constexpr Index kFirstLine = 8;
-constexpr long kSegments = 10;         ///< lengths of a segment in the shortest record
-constexpr long kMostRowsOfAll = 1600;  ///< block rows times channels: the larger matrix takes minutes
+constexpr long kShortestSegments = 10;  ///< lengths of a segment in the shortest record
+constexpr long kMostRowsOfAll = 1600;   ///< block rows times channels: the larger matrix takes minutes
 constexpr long kMostRows = 200, kFewestRows = 20;
 constexpr long kSamplesLeft = 1280;  ///< after decimation: twenty block rows of eight blocks, twice
 
@@ -43,7 +43,7 @@ struct Spectrum {
 Spectrum averaged(const std::vector<Samples>& records, double rate_Hz) {
   Index shortest = records.front().rows();
   for (const Samples& record : records) shortest = std::min(shortest, record.rows());
-  const signal::WelchOptions options{std::max<Index>(64, shortest / kSegments), 0.5};
+  const signal::WelchOptions options{std::max<Index>(64, shortest / kShortestSegments), 0.5};
   Spectrum spectrum;
   if (options.segment > shortest) return spectrum;
   const Eigen::VectorXd rms = channel_rms(records).cwiseMax(1e-300);
