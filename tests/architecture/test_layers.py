@@ -18,8 +18,8 @@ MAX_FILE_LINES = 500
 
 
 def library_of(parts):
-    """The library of a file below src, or of an include: its folder; below `steps` and `diagnosis` each folder is one of its own."""
-    return "/".join(parts[:2]) if parts[0] in ("steps", "diagnosis") and len(parts) == 3 else parts[0]
+    """The library of a file below src, or of an include: its folder; below some rooms each folder is one of its own."""
+    return "/".join(parts[:2]) if parts[0] in ("steps", "diagnosis", "aero", "ponte") and len(parts) == 3 else parts[0]
 
 
 def violations(src):

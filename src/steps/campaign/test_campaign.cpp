@@ -6,7 +6,7 @@
 #include <map>
 #include <optional>
 
-#include "aero_io/turbulence_sets.hpp"
+#include "aero/files/turbulence_sets.hpp"
 #include "core/error.hpp"
 #include "core/parallel.hpp"
 #include "fe/assembly_parameters.hpp"
@@ -68,7 +68,7 @@ virtual_bridge::VirtualWind read_virtual_wind(runner::StepContext& context, cons
   fields.require();
   out.aerodynamics = config;
   out.data = read_deck_aerodynamics(out.aerodynamics, context);
-  out.turbulence = aero_io::read_turbulence_set(context.input(settings.wind_turbulence_file), settings.wind_turbulence_set);
+  out.turbulence = aero::read_turbulence_set(context.input(settings.wind_turbulence_file), settings.wind_turbulence_set);
   return out;
 }
 

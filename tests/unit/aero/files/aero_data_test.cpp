@@ -1,6 +1,6 @@
 // Oracles: the published Storebaelt derivatives (IABSE TG 3.1) in both conventions; the files themselves; each kind of mistake
 // in a derivative file is refused with the words a user needs.
-#include "aero_io/aero_data.hpp"
+#include "aero/files/aero_data.hpp"
 
 #include <gtest/gtest.h>
 
@@ -24,7 +24,7 @@ class AeroFiles : public ::testing::Test {
   [[nodiscard]] std::filesystem::path write(const std::string& text) const { return scratch_.write("aero.csv", text); }
   void expect_refused(const std::filesystem::path& file, const std::string& words) {
     try {
-      const auto table = aero_io::read_flutter_derivatives(file);
+      const auto table = aero::read_flutter_derivatives(file);
       ADD_FAILURE() << "was read";
     } catch (const InputError& error) {
       EXPECT_NE(std::string(error.what()).find(words), std::string::npos) << error.what();
@@ -51,7 +51,7 @@ TEST_F(AeroFiles, GridConventionAndSignsAreChecked) {
 TEST_F(AeroFiles, NoExtrapolationUnlessAsked) {
   const auto file = write("V_over_fB," + zasso + "2" + ones + "4" + ones);
   const double low = 1.0 / (2 * std::numbers::pi), high = 5.0 / (2 * std::numbers::pi);
-  const auto strict = aero_io::read_flutter_derivatives(file);
+  const auto strict = aero::read_flutter_derivatives(file);
   for (const double v : {low, high}) {
     try {
       const auto block = strict.at(0.0, v);
@@ -60,15 +60,15 @@ TEST_F(AeroFiles, NoExtrapolationUnlessAsked) {
       EXPECT_NE(std::string(error.what()).find("V/(f B) 2 to 4"), std::string::npos) << error.what();
     }
   }
-  const auto held = aero_io::read_flutter_derivatives(file, aero::OutOfRange::hold, aero::OutOfRange::hold);
+  const auto held = aero::read_flutter_derivatives(file, aero::OutOfRange::hold, aero::OutOfRange::hold);
   EXPECT_NEAR(aero::from_block(aero::Convention::zasso, held.at(0.0, high), high)[0], 1.0, 1e-14);
   EXPECT_NEAR(aero::from_block(aero::Convention::zasso, held.at(0.0, low), low)[2], 1.0, 1e-14);
 }
 
 TEST_F(AeroFiles, BothPublishedConventionsGiveTheSameBlock) {
   const std::filesystem::path folder = std::filesystem::path(TWINDECK_SOURCE_DIR) / "tests/data/wind";
-  const aero::DerivativeTable first = aero_io::read_flutter_derivatives(folder / "storebaelt_zasso.csv");
-  const aero::DerivativeTable second = aero_io::read_flutter_derivatives(folder / "storebaelt_scanlan.csv");
+  const aero::DerivativeTable first = aero::read_flutter_derivatives(folder / "storebaelt_zasso.csv");
+  const aero::DerivativeTable second = aero::read_flutter_derivatives(folder / "storebaelt_scanlan.csv");
   for (const double v : {0.795775, 1.591549, 2.387324, 3.183099, 3.978874, 4.774648, 5.570423}) {
     const aero::DerivativeBlock a = first.at(0.0, v), b = second.at(0.0, v);
     // Zasso's values have three decimals, which V* or V*² multiplies; both files were rounded, so twice half a digit.
@@ -83,7 +83,7 @@ TEST_F(AeroFiles, SlopesAreDifferencedWhereTheyAreMissing) {
   const double degree = std::numbers::pi / 180;
   std::string text = "alpha_deg,C_D,C_L,C_M\n";
   for (int a = -2; a <= 2; ++a) text += std::to_string(a) + ",0.5," + std::to_string(0.1 + 2 * a * degree) + ",0\n";
-  const aero::Polar polar = aero_io::read_polar(write(text));
+  const aero::Polar polar = aero::read_polar(write(text));
   for (const double a : {-2.0, -0.3, 0.0, 1.9}) EXPECT_NEAR(polar.at(a * degree).lift_slope, 2.0, 1e-4);
   EXPECT_THROW(static_cast<void>(polar.at(3 * degree)), InputError);
 }
@@ -92,8 +92,8 @@ TEST_F(AeroFiles, TheStandInSetIsConsistent) {
   // Quasi-steady limits tie the flutter table's last row to the polar: h3 = C_L', a3 = C_M', p5 = 2 C_D, h5 = 2 C_L.
   const std::filesystem::path folder = std::filesystem::path(TWINDECK_SOURCE_DIR) / "data/ponte_del_mare/aero";
   for (const std::string deck : {"foot", "cycle"}) {
-    const auto table = aero_io::read_flutter_derivatives(folder / (deck + "_flutter.csv"));
-    const auto polar = aero_io::read_polar(folder / (deck + "_polar.csv"));
+    const auto table = aero::read_flutter_derivatives(folder / (deck + "_flutter.csv"));
+    const auto polar = aero::read_polar(folder / (deck + "_polar.csv"));
     const double v = 40 / (2 * std::numbers::pi);
     const auto d = aero::from_block(aero::Convention::zasso, table.at(0.0, v), v);
     const auto c = polar.at(0.0);

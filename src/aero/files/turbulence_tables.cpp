@@ -1,4 +1,4 @@
-#include "aero_io/turbulence_tables.hpp"
+#include "aero/files/turbulence_tables.hpp"
 
 #include <fmt/format.h>
 
@@ -10,7 +10,7 @@
 #include "core/error.hpp"
 #include "io/csv.hpp"
 
-namespace twindeck::aero_io {
+namespace twindeck::aero {
 namespace {
 
 constexpr double kVarianceTolerance = 0.05;  ///< [-] of a spectrum's integral: sigma is then off by 2.5 % at most
@@ -115,4 +115,4 @@ std::array<std::shared_ptr<const wind::CoherenceTable>, 3> read_coherences(const
   return out;
 }
 
-}  // namespace twindeck::aero_io
+}  // namespace twindeck::aero

@@ -11,7 +11,7 @@
 
 /// Measured laws of the turbulence as tables. The column `component` has the paper's letters (v along the wind, u across it,
 /// w vertical); each component's rows ascend.
-namespace twindeck::aero_io {
+namespace twindeck::aero {
 
 /// Spectra: columns `component,f_L_over_V,f_S_over_variance`.
 /// @param wanted  components that have to be there @return  by component, none for those that are not in the file
@@ -25,4 +25,4 @@ namespace twindeck::aero_io {
 [[nodiscard]] std::array<std::shared_ptr<const wind::CoherenceTable>, 3> read_coherences(
     const std::filesystem::path& file, const std::vector<wind::Component>& wanted);
 
-}  // namespace twindeck::aero_io
+}  // namespace twindeck::aero

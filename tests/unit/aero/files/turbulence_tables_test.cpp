@@ -1,5 +1,5 @@
 // Oracles: the file's own numbers; each kind of mistake is refused with the words a user needs.
-#include "aero_io/turbulence_tables.hpp"
+#include "aero/files/turbulence_tables.hpp"
 
 #include <gtest/gtest.h>
 
@@ -8,7 +8,7 @@
 #include "core/error.hpp"
 #include "unit/records/scratch.hpp"
 
-namespace twindeck::aero_io {
+namespace twindeck::aero {
 namespace {
 
 using wind::Component;
@@ -61,4 +61,4 @@ TEST(TurbulenceTables, CoherencesBeginWithOneAndDieOut) {
 }
 
 }  // namespace
-}  // namespace twindeck::aero_io
+}  // namespace twindeck::aero

@@ -1,4 +1,4 @@
-#include "aero_io/turbulence_sets.hpp"
+#include "aero/files/turbulence_sets.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -8,7 +8,7 @@
 #include "core/error.hpp"
 #include "io/csv.hpp"
 
-namespace twindeck::aero_io {
+namespace twindeck::aero {
 
 wind::TurbulenceSet read_turbulence_set(const std::filesystem::path& file, const std::string& name) {
   std::vector<std::string> columns = {
@@ -46,4 +46,4 @@ wind::TurbulenceSet read_turbulence_set(const std::filesystem::path& file, const
                    fmt::format("choose one of {}", fmt::join(known, ", ")));
 }
 
-}  // namespace twindeck::aero_io
+}  // namespace twindeck::aero

@@ -1,4 +1,4 @@
-#include "aero_io/aero_data.hpp"
+#include "aero/files/aero_data.hpp"
 
 #include <fmt/format.h>
 
@@ -14,7 +14,7 @@
 #include "core/error.hpp"
 #include "io/csv.hpp"
 
-namespace twindeck::aero_io {
+namespace twindeck::aero {
 namespace {
 
 /// A number without a dimension.
@@ -27,9 +27,9 @@ double coefficient(const io::CsvTable& table, std::size_t row, const std::string
   return value;
 }
 
-std::vector<std::string> names_of(aero::Convention convention) {
+std::vector<std::string> names_of(Convention convention) {
   std::vector<std::string> names;
-  for (const char group : std::string(convention == aero::Convention::zasso ? "hpa" : "HPA")) {
+  for (const char group : std::string(convention == Convention::zasso ? "hpa" : "HPA")) {
     for (int i = 1; i <= 6; ++i) names.push_back(group + std::to_string(i));
   }
   return names;
@@ -50,17 +50,17 @@ std::string reduced_velocity_column(const io::CsvTable& table) {
                    "give the reduced velocity in one column named V_over_fB or V_over_omegaB");
 }
 
-aero::Convention convention_of(const io::CsvTable& table) {
+Convention convention_of(const io::CsvTable& table) {
   const bool zasso = table.has("h1"), scanlan = table.has("H1");
   if (zasso == scanlan) {
     throw InputError({table.file().string(), 1, "h1"}, zasso ? "stands beside H1: two conventions" : "is missing, and so is H1",
                      "give h1 ... a6 (Zasso) or H1 ... A6 (Scanlan)");
   }
-  return zasso ? aero::Convention::zasso : aero::Convention::scanlan;
+  return zasso ? Convention::zasso : Convention::scanlan;
 }
 
 // Central differences inside, one-sided at the ends.
-void fill_slopes(const std::vector<double>& alpha, std::vector<aero::StaticCoefficients>& rows) {
+void fill_slopes(const std::vector<double>& alpha, std::vector<StaticCoefficients>& rows) {
   const std::size_t last = rows.size() - 1;
   for (std::size_t i = 0; i <= last; ++i) {
     const std::size_t a = i == 0 ? 0 : i - 1, b = std::min(i + 1, last);
@@ -73,7 +73,7 @@ void fill_slopes(const std::vector<double>& alpha, std::vector<aero::StaticCoeff
 
 }  // namespace
 
-aero::Polar read_polar(const std::filesystem::path& file) {
+Polar read_polar(const std::filesystem::path& file) {
   const std::vector<std::string> slopes = {"dC_D_per_rad", "dC_L_per_rad", "dC_M_per_rad"};
   const io::CsvTable table = io::CsvTable::read(file, {"alpha_deg", "C_D", "C_L", "C_M"}, slopes);
   const auto given = std::count_if(slopes.begin(), slopes.end(), [&](const std::string& name) { return table.has(name); });
@@ -85,10 +85,10 @@ aero::Polar read_polar(const std::filesystem::path& file) {
                      "add the angles that the deck turns to");
   }
   std::vector<double> alpha;
-  std::vector<aero::StaticCoefficients> rows;
+  std::vector<StaticCoefficients> rows;
   for (std::size_t i = 0; i < table.rows(); ++i) {
     alpha.push_back(table.number(i, "alpha_deg") * radians);
-    aero::StaticCoefficients row{
+    StaticCoefficients row{
         coefficient(table, i, "C_D"), coefficient(table, i, "C_L"), coefficient(table, i, "C_M"), 0.0, 0.0, 0.0};
     if (given == 3) {
       row.drag_slope = coefficient(table, i, slopes[0]);
@@ -103,11 +103,10 @@ aero::Polar read_polar(const std::filesystem::path& file) {
   return {std::move(alpha), std::move(rows), file.string()};
 }
 
-aero::DerivativeTable read_flutter_derivatives(const std::filesystem::path& file, aero::OutOfRange below,
-                                               aero::OutOfRange above) {
+DerivativeTable read_flutter_derivatives(const std::filesystem::path& file, OutOfRange below, OutOfRange above) {
   const io::CsvTable table = io::CsvTable::read(file, {}, {}, true);
   const std::string velocity = reduced_velocity_column(table);
-  const aero::Convention convention = convention_of(table);
+  const Convention convention = convention_of(table);
   const std::vector<std::string> names = names_of(convention);
   for (const std::string& name : names) {
     if (!table.has(name)) {
@@ -138,7 +137,7 @@ aero::DerivativeTable read_flutter_derivatives(const std::filesystem::path& file
                          std::to_string(alpha.size()) + " angles and " + std::to_string(speed.size()) + " reduced velocities",
                      "give each angle of attack the same reduced velocities");
   }
-  std::array<aero::DerivativeCurve, 18> curves;
+  std::array<DerivativeCurve, 18> curves;
   for (std::size_t d = 0; d < 18; ++d) {
     curves[d].v_over_omegaB = speed;
     curves[d].value.resize(static_cast<Eigen::Index>(alpha.size()), static_cast<Eigen::Index>(speed.size()));
@@ -152,4 +151,4 @@ aero::DerivativeTable read_flutter_derivatives(const std::filesystem::path& file
   return {convention, std::move(alpha), std::move(curves), file.string(), below, above};
 }
 
-}  // namespace twindeck::aero_io
+}  // namespace twindeck::aero
