@@ -1,6 +1,6 @@
 // Tables of a calibration. Oracles: cells calculated by hand from numbers set here, and that a table read back gives the same
 // parts.
-#include "calibration/calibration_tables.hpp"
+#include "ponte/calibration/calibration_tables.hpp"
 
 #include <gtest/gtest.h>
 
@@ -9,7 +9,7 @@
 
 #include "core/error.hpp"
 
-namespace twindeck::calibration {
+namespace twindeck::ponte {
 namespace {
 
 using Eigen::VectorXd;
@@ -166,4 +166,4 @@ TEST(TradeTable, HasARowATrial) {
 }
 
 }  // namespace
-}  // namespace twindeck::calibration
+}  // namespace twindeck::ponte

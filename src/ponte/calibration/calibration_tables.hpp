@@ -3,11 +3,11 @@
 #include <filesystem>
 #include <string>
 
-#include "calibration/calibration.hpp"
 #include "io/csv.hpp"
+#include "ponte/calibration/calibration.hpp"
 
 /// The tables of a calibration.
-namespace twindeck::calibration {
+namespace twindeck::ponte {
 
 /// values.csv: `value,unit,untuned,lower,upper,fitted,edge,reason`.
 void write_calibration_values(const Calibration& calibration, const CalibrationResult& result,
@@ -39,4 +39,4 @@ class TradeTable {
   io::CsvWriter csv_;
 };
 
-}  // namespace twindeck::calibration
+}  // namespace twindeck::ponte

@@ -1,11 +1,11 @@
-#include "calibration/calibration_tables.hpp"
+#include "ponte/calibration/calibration_tables.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
 
-namespace twindeck::calibration {
+namespace twindeck::ponte {
 
 namespace {
 
@@ -217,4 +217,4 @@ void TradeTable::add(const CalibrationTrial& trial, const std::string& mesh, con
   csv_.row(cells);
 }
 
-}  // namespace twindeck::calibration
+}  // namespace twindeck::ponte

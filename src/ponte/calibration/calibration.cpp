@@ -1,4 +1,4 @@
-#include "calibration/calibration.hpp"
+#include "ponte/calibration/calibration.hpp"
 
 #include <fmt/format.h>
 
@@ -7,7 +7,7 @@
 
 #include "fe/model.hpp"
 
-namespace twindeck::calibration {
+namespace twindeck::ponte {
 
 namespace {
 
@@ -56,7 +56,7 @@ std::vector<updating::FittedStructure> structures_of(const Calibration& calibrat
   for (const CalibrationTarget& target : calibration.targets) {
     const std::string variant = target.variant;
     out.push_back({[&calibration, bridge_toml, variant, mesh](const VectorXd& part) {
-                     return ponte::generate_with_values(bridge_toml, variant, mesh, bridge_values(calibration, part));
+                     return generate_with_values(bridge_toml, variant, mesh, bridge_values(calibration, part));
                    },
                    [&calibration, variant](Index v) {
                      return acts(calibration, calibration.values[static_cast<std::size_t>(v)], variant);
@@ -178,8 +178,8 @@ Calibration for_trial(Calibration calibration, const std::string& trial) {
   return calibration;
 }
 
-ponte::Values bridge_values(const Calibration& calibration, const Eigen::VectorXd& part) {
-  ponte::Values out = calibration.set;
+Values bridge_values(const Calibration& calibration, const Eigen::VectorXd& part) {
+  Values out = calibration.set;
   for (std::size_t v = 0; v < calibration.values.size(); ++v) {
     const CalibrationValue& value = calibration.values[v];
     for (std::size_t p = 0; p < value.paths.size(); ++p) {
@@ -190,4 +190,4 @@ ponte::Values bridge_values(const Calibration& calibration, const Eigen::VectorX
   return out;
 }
 
-}  // namespace twindeck::calibration
+}  // namespace twindeck::ponte

@@ -1,5 +1,5 @@
 // Ranges, forms and trials of a calibration. Oracles: hand calculations on even and logarithmic scales; what is refused.
-#include "calibration/calibration.hpp"
+#include "ponte/calibration/calibration.hpp"
 
 #include <gtest/gtest.h>
 
@@ -7,7 +7,7 @@
 
 #include "core/error.hpp"
 
-namespace twindeck::calibration {
+namespace twindeck::ponte {
 namespace {
 
 CalibrationValue value_of(const std::string& name, double start, double lower, double upper, std::vector<std::string> paths,
@@ -98,4 +98,4 @@ TEST(ForTrial, RefusesATrialThatIsNotThere) {
 }
 
 }  // namespace
-}  // namespace twindeck::calibration
+}  // namespace twindeck::ponte

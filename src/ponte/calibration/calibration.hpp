@@ -13,12 +13,12 @@
 
 /// Calibration of the bridge's unknown sizes to printed frequencies, known cable forces and masses per metre, within ranges of
 /// engineering sense. What is computed stands in updating/structure_fit.hpp.
-namespace twindeck::calibration {
+namespace twindeck::ponte {
 
 /// A size that is fitted: it scales one or several values of bridge.toml.
 struct CalibrationValue {
   std::string name, unit, reason;
-  std::vector<std::string> paths;  ///< see ponte::Values
+  std::vector<std::string> paths;  ///< see Values
   std::vector<double> factors;     ///< one a path
   double start = 0.0, lower = 0.0, upper = 0.0;
   bool linear = false;  ///< its range is travelled evenly; otherwise in its logarithm
@@ -58,7 +58,7 @@ struct CalibrationLimit {
 /// A shape of the trusses: values of bridge.toml that stay as given. A fitted value all of whose paths it gives is not fitted.
 struct CalibrationForm {
   std::string name, meaning;
-  ponte::Values set;
+  Values set;
 };
 
 /// A fit for the table of the trade between frequencies, forces and masses.
@@ -79,7 +79,7 @@ struct Calibration {
   double frequency_std = 0.01;                                               ///< relative
   double whole_range_costs = 0.0;                                            ///< see updating::FitObjective
   std::array<double, updating::n_data_kinds> weight = {1.0, 0.0, 0.0, 0.0};  ///< of the kinds; frequencies alone
-  ponte::Values set;                                                         ///< of the form
+  Values set;                                                                ///< of the form
   int max_iterations = 40;
 };
 
@@ -88,7 +88,7 @@ struct Calibration {
 [[nodiscard]] Calibration for_trial(Calibration calibration, const std::string& trial);
 
 /// The values of bridge.toml at given parts of the ranges, with the form's; a path that several values name gets their product.
-[[nodiscard]] ponte::Values bridge_values(const Calibration& calibration, const Eigen::VectorXd& part);
+[[nodiscard]] Values bridge_values(const Calibration& calibration, const Eigen::VectorXd& part);
 
 struct CalibrationResult {
   Eigen::VectorXd part;             ///< (n_values) where each value ended in its range
@@ -110,4 +110,4 @@ struct CalibrationResult {
                                           const std::string& mesh, const std::string& search_mesh, const Eigen::VectorXd& first,
                                           const std::function<void(const std::string&)>& report);
 
-}  // namespace twindeck::calibration
+}  // namespace twindeck::ponte

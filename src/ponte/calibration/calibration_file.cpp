@@ -1,4 +1,4 @@
-#include "calibration/calibration_file.hpp"
+#include "ponte/calibration/calibration_file.hpp"
 
 #include <fmt/format.h>
 
@@ -6,7 +6,7 @@
 
 #include "io/toml_value.hpp"
 
-namespace twindeck::calibration {
+namespace twindeck::ponte {
 
 namespace {
 
@@ -39,8 +39,8 @@ class Reader {
   }
   std::string text(const std::string& key) { return required(find<std::string>(key), key); }
   /// A table of numbers by path.
-  ponte::Values values(const std::string& key) {
-    ponte::Values out;
+  Values values(const std::string& key) {
+    Values out;
     const auto* entries = find<TomlValue::Table>(key);
     for (const io::TomlEntry& entry : entries == nullptr ? TomlValue::Table{} : *entries) {
       const long* whole = entry.value.as<long>();
@@ -231,4 +231,4 @@ Calibration read_calibration(const std::filesystem::path& file) {
   return out;
 }
 
-}  // namespace twindeck::calibration
+}  // namespace twindeck::ponte

@@ -4,8 +4,8 @@
 #include <cstdio>
 #include <filesystem>
 
-#include "calibration/calibration_file.hpp"
-#include "calibration/calibration_tables.hpp"
+#include "ponte/calibration/calibration_file.hpp"
+#include "ponte/calibration/calibration_tables.hpp"
 #include "runner/threads.hpp"
 
 namespace {
@@ -18,46 +18,44 @@ struct Options {
   bool all_trials = false, write = false;
 };
 
-void write_into_bridge(const calibration::Calibration& calibration, const Eigen::VectorXd& part,
+void write_into_bridge(const ponte::Calibration& calibration, const Eigen::VectorXd& part,
                        const std::filesystem::path& bridge) {
   std::map<std::string, std::string> units;
-  for (const calibration::CalibrationValue& value : calibration.values) {
+  for (const ponte::CalibrationValue& value : calibration.values) {
     for (const std::string& path : value.paths) {
       if (!units.contains(path) || units[path] == "-") units[path] = value.unit;
     }
   }
   for (const auto& [path, number] : calibration.set) units[path] = "-";  // SI, as the file reads a number without a unit
-  ponte::write_values(bridge, calibration::bridge_values(calibration, part), units);
+  ponte::write_values(bridge, ponte::bridge_values(calibration, part), units);
 }
 
-calibration::CalibrationResult fit(const calibration::Calibration& calibration, const Options& options,
-                                   const std::filesystem::path& out) {
-  const Eigen::VectorXd first =
-      options.from.empty() ? calibration::starts(calibration) : calibration::parts_in(options.from, calibration);
-  calibration::CalibrationResult result =
-      calibration::calibrate(calibration, options.bridge, options.mesh, options.search_mesh, first,
-                             [](const std::string& line) { std::fprintf(stderr, "calibrate_bridge: %s\n", line.c_str()); });
+ponte::CalibrationResult fit(const ponte::Calibration& calibration, const Options& options, const std::filesystem::path& out) {
+  const Eigen::VectorXd first = options.from.empty() ? ponte::starts(calibration) : ponte::parts_in(options.from, calibration);
+  ponte::CalibrationResult result =
+      ponte::calibrate(calibration, options.bridge, options.mesh, options.search_mesh, first,
+                       [](const std::string& line) { std::fprintf(stderr, "calibrate_bridge: %s\n", line.c_str()); });
   if (result.answers.empty()) throw InputError({options.bridge, 0, ""}, result.status.message, "check the starting values");
   std::filesystem::create_directories(out);
-  calibration::write_calibration_values(calibration, result, out / "values.csv");
-  calibration::write_calibration_frequencies(calibration, result, out / "frequencies.csv");
-  calibration::write_calibration_known(calibration, result, out / "known.csv");
+  ponte::write_calibration_values(calibration, result, out / "values.csv");
+  ponte::write_calibration_frequencies(calibration, result, out / "frequencies.csv");
+  ponte::write_calibration_known(calibration, result, out / "known.csv");
   return result;
 }
 
 int run(const Options& options) {
-  const calibration::Calibration all = calibration::read_calibration(options.definition);
+  const ponte::Calibration all = ponte::read_calibration(options.definition);
   if (!options.all_trials && options.trial.empty()) {
-    const calibration::CalibrationResult result = fit(all, options, options.out);
+    const ponte::CalibrationResult result = fit(all, options, options.out);
     if (options.write) write_into_bridge(all, result.part, options.bridge);
     return result.status.converged ? 0 : 1;
   }
-  if (!options.all_trials) static_cast<void>(calibration::for_trial(all, options.trial));  // refuses an unknown name
-  calibration::TradeTable trade(all);
-  for (const calibration::CalibrationTrial& trial : all.trials) {
+  if (!options.all_trials) static_cast<void>(ponte::for_trial(all, options.trial));  // refuses an unknown name
+  ponte::TradeTable trade(all);
+  for (const ponte::CalibrationTrial& trial : all.trials) {
     if (!options.all_trials && trial.name != options.trial) continue;
-    const calibration::Calibration calibration = calibration::for_trial(all, trial.name);
-    const calibration::CalibrationResult result = fit(calibration, options, std::filesystem::path(options.out) / trial.name);
+    const ponte::Calibration calibration = ponte::for_trial(all, trial.name);
+    const ponte::CalibrationResult result = fit(calibration, options, std::filesystem::path(options.out) / trial.name);
     trade.add(trial, options.mesh.empty() ? "full" : options.mesh, calibration, result);
     if (options.write) write_into_bridge(calibration, result.part, options.bridge);
   }

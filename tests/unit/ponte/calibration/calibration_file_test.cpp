@@ -1,5 +1,5 @@
 // Oracles: numbers and texts typed in here; the study's own file must be readable and its trials complete.
-#include "calibration/calibration_file.hpp"
+#include "ponte/calibration/calibration_file.hpp"
 
 #include <gtest/gtest.h>
 
@@ -8,7 +8,7 @@
 #include "core/error.hpp"
 #include "test_places.hpp"
 
-namespace twindeck::calibration {
+namespace twindeck::ponte {
 namespace {
 
 const std::string kSmall = R"([[target]]
@@ -137,4 +137,4 @@ TEST(CalibrationFile, TheStudysTrialsAreReadable) {
 }
 
 }  // namespace
-}  // namespace twindeck::calibration
+}  // namespace twindeck::ponte
