@@ -1,4 +1,4 @@
-#include "virtual_bridge/stay_records.hpp"
+#include "ponte/virtual_bridge/stay_records.hpp"
 
 #include <Eigen/Eigenvalues>
 #include <algorithm>
@@ -12,7 +12,7 @@
 #include "fe/elements.hpp"
 #include "transient/trapezoidal.hpp"
 
-namespace twindeck::virtual_bridge {
+namespace twindeck::ponte {
 using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
@@ -144,4 +144,4 @@ StayRecord stay_record(const fe::Model& model, const StayTest& test, const Campa
   return record;
 }
 
-}  // namespace twindeck::virtual_bridge
+}  // namespace twindeck::ponte

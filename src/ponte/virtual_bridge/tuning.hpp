@@ -3,9 +3,9 @@
 #include <Eigen/Core>
 
 #include "core/reporter.hpp"
-#include "virtual_bridge/virtual_bridge.hpp"
+#include "ponte/virtual_bridge/virtual_bridge.hpp"
 
-namespace twindeck::virtual_bridge {
+namespace twindeck::ponte {
 
 /// Fits corrections so that the named frequencies are the wanted ones: regularised Gauss-Newton on ln f with analytic
 /// derivatives, logarithms of the corrections as small as can be. Pulls are found anew at every step.
@@ -17,4 +17,4 @@ struct BridgeTuning {
 };
 [[nodiscard]] BridgeTuning tune(const VirtualBridge& bridge, const CampaignSettings& settings, const Reporter& reporter);
 
-}  // namespace twindeck::virtual_bridge
+}  // namespace twindeck::ponte

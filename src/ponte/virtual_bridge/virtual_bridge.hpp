@@ -8,15 +8,15 @@
 #include "dynamics/eigenmodes.hpp"
 #include "fe/assembly.hpp"
 #include "fe/stay_chains.hpp"
+#include "ponte/virtual_bridge/campaign_settings.hpp"
 #include "sensors/layout.hpp"
 #include "transient/reduced_basis.hpp"
 #include "transient/sliding_damper.hpp"
-#include "virtual_bridge/campaign_settings.hpp"
 
 /// The as-built truth on which the test campaign is simulated: a bridge with its own mesh, cables that vibrate, dampers with
 /// friction. It takes the definition of the bridge and the campaign's settings; it gives states, records and what is true about
 /// them.
-namespace twindeck::virtual_bridge {
+namespace twindeck::ponte {
 
 struct VirtualBridge {
   fe::Model undivided;          ///< of the definition, slabs uneven, stays single elements
@@ -70,4 +70,4 @@ struct BridgeState {
 [[nodiscard]] Eigen::MatrixXd at_channels(const BridgeState& state, const Eigen::MatrixXd& x,
                                           const std::vector<sensors::LayoutChannel>& channels);
 
-}  // namespace twindeck::virtual_bridge
+}  // namespace twindeck::ponte

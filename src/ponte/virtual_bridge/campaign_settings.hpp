@@ -4,7 +4,7 @@
 #include <vector>
 
 /// What the virtual bridge is and what its test campaign imposes.
-namespace twindeck::virtual_bridge {
+namespace twindeck::ponte {
 
 struct NamedMode {
   std::string name;            ///< "1", as in Table 4
@@ -75,4 +75,4 @@ struct CampaignSettings {
   [[nodiscard]] const ConditionSettings& condition(const std::string& name) const;
 };
 
-}  // namespace twindeck::virtual_bridge
+}  // namespace twindeck::ponte

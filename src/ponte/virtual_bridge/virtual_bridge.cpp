@@ -1,4 +1,4 @@
-#include "virtual_bridge/virtual_bridge.hpp"
+#include "ponte/virtual_bridge/virtual_bridge.hpp"
 
 #include <fmt/format.h>
 
@@ -13,7 +13,7 @@
 #include "ponte/generator.hpp"
 #include "ponte/zoned_members.hpp"
 
-namespace twindeck::virtual_bridge {
+namespace twindeck::ponte {
 using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
@@ -51,8 +51,7 @@ void check_damper_types(const CampaignSettings& settings, const fe::Model& model
 
 VirtualBridge read_virtual_bridge(const std::filesystem::path& definition, const CampaignSettings& settings) {
   VirtualBridge bridge;
-  const fe::Model members =
-      ponte::with_zoned_members(ponte::generate(definition, "as_built"), static_cast<int>(settings.zones));
+  const fe::Model members = with_zoned_members(generate(definition, "as_built"), static_cast<int>(settings.zones));
   bridge.undivided = fe::with_uneven_shells(members, settings.unevenness, settings.unevenness_wavelength_m);
   fe::validate(bridge.undivided);
   check_damper_types(settings, bridge.undivided);
@@ -209,4 +208,4 @@ MatrixXd at_channels(const BridgeState& state, const MatrixXd& x, const std::vec
   return out;
 }
 
-}  // namespace twindeck::virtual_bridge
+}  // namespace twindeck::ponte

@@ -1,4 +1,4 @@
-#include "virtual_bridge/wind_records.hpp"
+#include "ponte/virtual_bridge/wind_records.hpp"
 
 #include <Eigen/Geometry>
 #include <cmath>
@@ -6,7 +6,7 @@
 #include "buffeting/loads.hpp"
 #include "wind/simulation.hpp"
 
-namespace twindeck::virtual_bridge {
+namespace twindeck::ponte {
 
 using Eigen::Index;
 using Eigen::MatrixXd;
@@ -93,4 +93,4 @@ Motion simulate_wind(const ConditionModel& model, const CampaignSettings& settin
   return recorder.motion();
 }
 
-}  // namespace twindeck::virtual_bridge
+}  // namespace twindeck::ponte

@@ -1,4 +1,4 @@
-#include "virtual_bridge/tuning.hpp"
+#include "ponte/virtual_bridge/tuning.hpp"
 
 #include <fmt/format.h>
 
@@ -9,7 +9,7 @@
 
 #include "sensitivity/frequency_jacobian.hpp"
 
-namespace twindeck::virtual_bridge {
+namespace twindeck::ponte {
 using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
@@ -78,4 +78,4 @@ BridgeTuning tune(const VirtualBridge& bridge, const CampaignSettings& settings,
   return found;
 }
 
-}  // namespace twindeck::virtual_bridge
+}  // namespace twindeck::ponte

@@ -1,10 +1,10 @@
-#include "virtual_bridge/campaign_settings.hpp"
+#include "ponte/virtual_bridge/campaign_settings.hpp"
 
 #include <algorithm>
 
 #include "core/error.hpp"
 
-namespace twindeck::virtual_bridge {
+namespace twindeck::ponte {
 
 const ConditionSettings& CampaignSettings::condition(const std::string& name) const {
   const auto at =
@@ -16,4 +16,4 @@ const ConditionSettings& CampaignSettings::condition(const std::string& name) co
                    "add a table [[condition]] of this name");
 }
 
-}  // namespace twindeck::virtual_bridge
+}  // namespace twindeck::ponte

@@ -4,10 +4,10 @@
 #include <vector>
 
 #include "aero/wind_model.hpp"
-#include "virtual_bridge/simulated_records.hpp"
+#include "ponte/virtual_bridge/simulated_records.hpp"
 #include "wind/turbulence.hpp"
 
-namespace twindeck::virtual_bridge {
+namespace twindeck::ponte {
 
 /// Wind events of the virtual bridge: what they rest on, read once.
 struct VirtualWind {
@@ -25,4 +25,4 @@ struct VirtualWind {
                                    const VirtualWind& virtual_wind, const std::vector<sensors::LayoutChannel>& channels,
                                    std::uint64_t seed, std::uint64_t stream);
 
-}  // namespace twindeck::virtual_bridge
+}  // namespace twindeck::ponte

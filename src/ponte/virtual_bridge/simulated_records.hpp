@@ -5,11 +5,11 @@
 #include <string>
 #include <vector>
 
+#include "ponte/virtual_bridge/virtual_bridge.hpp"
 #include "transient/trapezoidal.hpp"
-#include "virtual_bridge/virtual_bridge.hpp"
 
 /// Time histories of the virtual bridge, and what is true about them.
-namespace twindeck::virtual_bridge {
+namespace twindeck::ponte {
 
 /// The bridge in a condition, in the basis in which its motion is computed.
 struct ConditionModel {
@@ -82,4 +82,4 @@ struct TrueModes {
 [[nodiscard]] Eigen::VectorXd participation(const ConditionModel& model, const TrueModes& modes,
                                             const Eigen::MatrixXd& channel_shapes);
 
-}  // namespace twindeck::virtual_bridge
+}  // namespace twindeck::ponte

@@ -4,9 +4,9 @@
 #include <cstdint>
 
 #include "fe/model.hpp"
-#include "virtual_bridge/campaign_settings.hpp"
+#include "ponte/virtual_bridge/campaign_settings.hpp"
 
-namespace twindeck::virtual_bridge {
+namespace twindeck::ponte {
 
 /// A stay between fixed ends, as its own test finds it.
 struct StayTruth {
@@ -36,4 +36,4 @@ struct StayRecord {
 [[nodiscard]] StayRecord stay_record(const fe::Model& model, const StayTest& test, const CampaignSettings& settings,
                                      std::uint64_t seed, std::uint64_t stream);
 
-}  // namespace twindeck::virtual_bridge
+}  // namespace twindeck::ponte

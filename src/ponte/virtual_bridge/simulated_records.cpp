@@ -1,4 +1,4 @@
-#include "virtual_bridge/simulated_records.hpp"
+#include "ponte/virtual_bridge/simulated_records.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -9,7 +9,7 @@
 #include "matching/pairing.hpp"
 #include "sensors/logger.hpp"
 
-namespace twindeck::virtual_bridge {
+namespace twindeck::ponte {
 using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
@@ -253,4 +253,4 @@ VectorXd participation(const ConditionModel& model, const TrueModes& modes, cons
   return (variance.array().colwise() / total.array()).colwise().maxCoeff();
 }
 
-}  // namespace twindeck::virtual_bridge
+}  // namespace twindeck::ponte
