@@ -121,8 +121,7 @@ std::size_t possible_orders(const std::vector<DiagramPole>& diagram, const std::
 }
 
 void number_clusters(std::vector<DiagramPole>& diagram, std::vector<Cluster>& clusters) {
-  std::sort(clusters.begin(), clusters.end(),
-            [](const Cluster& p, const Cluster& q) { return p.frequency_Hz < q.frequency_Hz; });
+  std::ranges::sort(clusters, {}, &Cluster::frequency_Hz);
   for (std::size_t m = 0; m < clusters.size(); ++m) {
     for (const std::size_t i : clusters[m].members) diagram[i].mode = static_cast<int>(m);
   }

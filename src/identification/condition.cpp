@@ -124,16 +124,12 @@ Identification preger(const ConditionResult& result, const std::vector<Index>& r
     one.lags = blocks.mean();
     setups.push_back(std::move(one));
   }
-  Identification found;
   // References alone must carry the orders.
   std::vector<int> orders = options.orders();
   const auto most = static_cast<int>((config.block_rows - 1) * static_cast<Index>(references.size()));
   std::erase_if(orders, [&](int order) { return order > most; });
-  if (orders.empty()) return found;
-  const auto poles = merge_preger(setups, n_channels, config.block_rows, orders, rate);
-  found.diagram = stabilisation_diagram(poles, options.criteria, options.limits);
-  found.modes = options.selection == Selection::paper ? identify_clusters(found.diagram, orders, options.cleaning)
-                                                      : automatic_clusters(found.diagram, orders, options.automatic);
+  if (orders.empty()) return {};
+  Identification found = modes_of_poles(merge_preger(setups, n_channels, config.block_rows, orders, rate), orders, options);
   to_physical_shapes(found, result.channels, scale);
   return found;
 }

@@ -143,11 +143,7 @@ void drop_better_than_random(Identification& result, double seconds) {
 namespace {
 
 Identification select(const ShiftModels& models, const IdentifyOptions& options) {
-  const std::vector<int> orders = options.orders();
-  Identification result;
-  result.diagram = stabilisation_diagram(poles_of(models), options.criteria, options.limits);
-  result.modes = options.selection == Selection::paper ? identify_clusters(result.diagram, orders, options.cleaning)
-                                                       : automatic_clusters(result.diagram, orders, options.automatic);
+  Identification result = modes_of_poles(poles_of(models), options.orders(), options);
   result.periodic = undamped_poles(poles_of(models), options.limits.lowest_Hz, options.limits.highest_Hz, options.periodic);
   return result;
 }
@@ -252,8 +248,7 @@ void mark_periodic(Identification& result, const std::vector<Samples>& records, 
   result.periodic = periodic_lines(result.periodic, records, rate_Hz, rule);
   std::erase_if(result.periodic, is_known);
   result.periodic.insert(result.periodic.end(), known.begin(), known.end());
-  std::sort(result.periodic.begin(), result.periodic.end(),
-            [](const PeriodicLine& p, const PeriodicLine& q) { return p.frequency_Hz < q.frequency_Hz; });
+  std::ranges::sort(result.periodic, {}, &PeriodicLine::frequency_Hz);
   drop_lines(result, result.periodic, rule);
 }
 
@@ -270,6 +265,15 @@ std::vector<int> IdentifyOptions::orders() const {
   for (int order = minimum_order; order <= maximum_order; order += order_step) list.push_back(order);
   TWINDECK_ASSERT(!list.empty());
   return list;
+}
+
+Identification modes_of_poles(const std::vector<std::vector<Pole>>& poles, const std::vector<int>& orders,
+                              const IdentifyOptions& options) {
+  Identification found;
+  found.diagram = stabilisation_diagram(poles, options.criteria, options.limits);
+  found.modes = options.selection == Selection::paper ? identify_clusters(found.diagram, orders, options.cleaning)
+                                                      : automatic_clusters(found.diagram, orders, options.automatic);
+  return found;
 }
 
 Identification identify(const signal::BlockCorrelations& blocks, double rate_Hz, const IdentifyOptions& options) {

@@ -60,6 +60,11 @@ struct Identification {
   std::vector<PeriodicLine> periodic;
 };
 
+/// The stabilisation diagram of poles and the modes that the options select in it, without deviations.
+/// @param poles  one list an order, of the same channels @param orders  theirs, ascending
+[[nodiscard]] Identification modes_of_poles(const std::vector<std::vector<Pole>>& poles, const std::vector<int>& orders,
+                                            const IdentifyOptions& options);
+
 /// Covariance-driven identification of output-only records: correlations to subspace to poles of all orders, stabilisation
 /// diagram, selection, clusters, standard deviations.
 /// @param blocks  correlations of lags 0 … 2 block_rows - 1 of the conditioned records @param rate_Hz  their sampling rate

@@ -115,17 +115,10 @@ std::vector<Eigen::MatrixXd> grams_of_blocks(const Eigen::MatrixXd& data, const 
 }
 
 /// Deviations of a mode by the jackknife. @param x  (2 + 2 outputs × blocks) replicates, each without one block
-ModeDeviation deviation_of(const Eigen::MatrixXd& x, Index outputs) {
+ModeDeviation deviation_of(const Eigen::MatrixXd& x) {
   const auto n_blocks = static_cast<double>(x.cols());
-  ModeDeviation deviation;
   const double factor = std::sqrt((n_blocks - 1.0) / n_blocks);
-  deviation.factor = (x.colwise() - x.rowwise().mean()) * factor;
-  const Eigen::VectorXd sigma = deviation.factor.rowwise().norm();
-  deviation.frequency_Hz = sigma[0];
-  deviation.damping_ratio = sigma[1];
-  deviation.shape_real = sigma.segment(2, outputs);
-  deviation.shape_imag = sigma.tail(outputs);
-  return deviation;
+  return deviation_of_factor((x.colwise() - x.rowwise().mean()) * factor);
 }
 
 }  // namespace
@@ -142,11 +135,8 @@ Identification identify_input_output(const Eigen::MatrixXd& inputs, const Eigen:
   Eigen::MatrixXd total = Eigen::MatrixXd::Zero(grams[0].rows(), grams[0].cols());
   for (const Eigen::MatrixXd& gram : grams) total += gram;
 
-  Identification result;
-  const auto poles = poles_of_orders(observability_of(total, size, orders.back()), orders, rate_Hz);
-  result.diagram = stabilisation_diagram(poles, options.criteria, options.limits);
-  result.modes = options.selection == Selection::paper ? identify_clusters(result.diagram, orders, options.cleaning)
-                                                       : automatic_clusters(result.diagram, orders, options.automatic);
+  Identification result =
+      modes_of_poles(poles_of_orders(observability_of(total, size, orders.back()), orders, rate_Hz), orders, options);
   if (result.modes.empty()) return result;
 
   std::vector<Eigen::MatrixXd> replicates(result.modes.size(), Eigen::MatrixXd(2 + 2 * size.outputs, n_blocks));
@@ -159,7 +149,7 @@ Identification identify_input_output(const Eigen::MatrixXd& inputs, const Eigen:
       replicates[m].col(b) = replicate(members, orders, found);
     }
   }
-  for (const Eigen::MatrixXd& x : replicates) result.deviations.push_back(deviation_of(x, size.outputs));
+  for (const Eigen::MatrixXd& x : replicates) result.deviations.push_back(deviation_of(x));
   drop_undetermined(result, options, static_cast<double>(inputs.rows()) / rate_Hz);
   return result;
 }

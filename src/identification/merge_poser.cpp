@@ -294,8 +294,7 @@ std::vector<MergedMode> merge_poser(const std::vector<SetupModes>& setups, Index
     merge_shapes(setups, members, scales(setups, members, references), n_channels, merged);
     result.push_back(std::move(merged));
   }
-  std::sort(result.begin(), result.end(),
-            [](const MergedMode& a, const MergedMode& b) { return a.frequency_Hz < b.frequency_Hz; });
+  std::ranges::sort(result, {}, &MergedMode::frequency_Hz);
   return result;
 }
 

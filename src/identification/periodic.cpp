@@ -204,8 +204,7 @@ std::vector<PeriodicLine> without_lines(std::vector<Samples>& records, const std
     for (const double part : {1.0 / 3.0, 1.0 / 2.0}) look_at(part);
     for (int k = 2; k * line.frequency_Hz <= highest_Hz; ++k) look_at(k);
   }
-  std::sort(all.begin(), all.end(),
-            [](const PeriodicLine& p, const PeriodicLine& q) { return p.frequency_Hz < q.frequency_Hz; });
+  std::ranges::sort(all, {}, &PeriodicLine::frequency_Hz);
   for (PeriodicLine& line : all) {
     for (const PeriodicLine& base : all)
       line.multiple = std::max(line.multiple, multiple_of(line.frequency_Hz, base.frequency_Hz, rule.multiple));

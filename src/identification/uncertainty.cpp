@@ -66,14 +66,19 @@ double difference_deviation(const ShiftModels& models, const PoleFactors& factor
   return (factor_of(models, factors, pole).row(0) - factor_of(models, factors, other).row(0)).norm();
 }
 
+ModeDeviation deviation_of_factor(Eigen::MatrixXd factor) {
+  const Eigen::VectorXd sigma = factor.rowwise().norm();
+  const Index l = (sigma.size() - 2) / 2;
+  return {sigma[0], sigma[1], sigma.segment(2, l), sigma.tail(l), std::move(factor)};
+}
+
 std::vector<ModeDeviation> mode_deviations(const ShiftModels& models, const PoleFactors& factors,
                                            const std::vector<std::vector<Pole>>& modes) {
   std::vector<ModeDeviation> deviations;
   for (const std::vector<Pole>& mode : modes) {
     std::vector<Eigen::MatrixXd> members;
     for (const Pole& pole : mode) members.push_back(turned_factor(models, factors, pole, mode.front().shape));
-    ModeDeviation deviation;
-    Eigen::MatrixXd& factor = deviation.factor = Eigen::MatrixXd::Zero(members.front().rows(), members.front().cols());
+    Eigen::MatrixXd factor(members.front().rows(), members.front().cols());
     for (Index b = 0; b < factor.cols(); ++b) {
       for (Index row = 0; row < factor.rows(); ++row) {
         std::vector<double> values;
@@ -81,13 +86,7 @@ std::vector<ModeDeviation> mode_deviations(const ShiftModels& models, const Pole
         factor(row, b) = median(std::move(values));
       }
     }
-    const Eigen::VectorXd sigma = factor.rowwise().norm();
-    const Index l = (sigma.size() - 2) / 2;
-    deviation.frequency_Hz = sigma[0];
-    deviation.damping_ratio = sigma[1];
-    deviation.shape_real = sigma.segment(2, l);
-    deviation.shape_imag = sigma.tail(l);
-    deviations.push_back(std::move(deviation));
+    deviations.push_back(deviation_of_factor(std::move(factor)));
   }
   return deviations;
 }

@@ -34,6 +34,9 @@ struct PoleFactors {
 [[nodiscard]] double difference_deviation(const ShiftModels& models, const PoleFactors& factors, const Pole& pole,
                                           const Pole& other);
 
+/// The deviations that a factor means: the norms of its rows. @param factor  as in ModeDeviation
+[[nodiscard]] ModeDeviation deviation_of_factor(Eigen::MatrixXd factor);
+
 /// Deviations of modes whose frequency, damping and shape entries are medians over model orders. For each change, the median of
 /// the members' changes is used.
 /// @param modes  for each mode its poles, each of the model of its own order
