@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "identification/mode_choices.hpp"
 
@@ -16,23 +17,18 @@ namespace {
 /// MAC over the channels that both have.
 double common_mac(const Eigen::VectorXcd& a, const std::vector<records::CampaignChannel>& a_channels, const Eigen::VectorXcd& b,
                   const std::vector<records::CampaignChannel>& b_channels) {
-  std::complex<double> product = 0.0;
-  double aa = 0.0, bb = 0.0;
+  Eigen::VectorXcd same = Eigen::VectorXcd::Constant(a.size(), std::numeric_limits<double>::quiet_NaN());  // b at a's
   for (std::size_t i = 0; i < a_channels.size(); ++i) {
-    for (std::size_t j = 0; j < b_channels.size(); ++j) {
-      const std::complex<double> x = a[static_cast<Index>(i)], y = b[static_cast<Index>(j)];
-      if (a_channels[i].name != b_channels[j].name || std::isnan(x.real()) || std::isnan(y.real())) continue;
-      product += std::conj(x) * y;
-      aa += std::norm(x);
-      bb += std::norm(y);
-    }
+    for (std::size_t j = 0; j < b_channels.size(); ++j)
+      if (a_channels[i].name == b_channels[j].name) same[static_cast<Index>(i)] = b[static_cast<Index>(j)];
   }
-  return aa > 0.0 && bb > 0.0 ? std::norm(product) / (aa * bb) : 0.0;
+  return known_mac(a, same);
 }
 
 void read_by_amplitude(DecayResult& result, const Eigen::MatrixXd& decay, double rate_Hz, const std::string& record,
                        const IdentificationSettings& config, const ConditionResult* ambient) {
-  for (const Cluster& mode : result.found.modes) {
+  for (std::size_t m = 0; m < result.found.modes.size(); ++m) {
+    const Cluster& mode = result.found.modes[m];
     // Neighbours closer than the filter can tell apart beat in its band.
     const bool alone = std::all_of(result.found.modes.begin(), result.found.modes.end(), [&](const Cluster& other) {
       return &other == &mode || std::abs(other.frequency_Hz - mode.frequency_Hz) > 1.5 * config.decay_band_Hz;
@@ -44,7 +40,7 @@ void read_by_amplitude(DecayResult& result, const Eigen::MatrixXd& decay, double
         decay_by_amplitude(q.value, rate_Hz, 0.5 / config.decay_band_Hz, static_cast<int>(config.decay_bands), q.noise);
     if (points.empty()) continue;
     const auto partner = partner_of(mode, result.conditioned.channels, ambient);
-    result.by_amplitude.push_back({partner ? std::to_string(partner->mode + 1) : "", record, mode.frequency_Hz, points});
+    result.by_amplitude.push_back({partner ? std::to_string(partner->mode + 1) : "", record, m, points});
   }
 }
 
@@ -146,7 +142,7 @@ std::vector<ConditionResult> decay_conditions(std::vector<DecayResult>& decays) 
     }
     ConditionResult& result = *std::find_if(results.begin(), results.end(), [&](const auto& r) { return r.condition == name; });
     SetupResult& setup = result.setups.emplace_back();
-    setup.conditioned = decay.conditioned;
+    static_cast<ConditionedInfo&>(setup.conditioned) = decay.conditioned;
     setup.conditioned.quality.clear();  // stays with the decay
     setup.found = decay.found;
   }
@@ -154,9 +150,7 @@ std::vector<ConditionResult> decay_conditions(std::vector<DecayResult>& decays) 
   for (DecayResult& decay : decays) {
     const ConditionResult* result = condition_named(results, decay.conditioned.condition);
     for (DecayResult::ByAmplitude& by : decay.by_amplitude) {
-      const auto mode = std::find_if(decay.found.modes.begin(), decay.found.modes.end(),
-                                     [&](const Cluster& m) { return m.frequency_Hz == by.frequency_Hz; });
-      const auto partner = partner_of(*mode, decay.conditioned.channels, result);
+      const auto partner = partner_of(decay.found.modes[by.found], decay.conditioned.channels, result);
       if (partner) by.mode = std::to_string(partner->mode + 1);
     }
   }
@@ -168,7 +162,7 @@ std::vector<DecayResult> identify_free_decays(const std::vector<Conditioned>& re
   std::vector<DecayResult> decays;
   for (const Conditioned& conditioned : records) {
     DecayResult result;
-    result.conditioned = without_records(conditioned);
+    result.conditioned = conditioned;
     const Eigen::VectorXd scale = channel_rms(conditioned.records);
     IdentificationSettings own = config;
     own.block_rows = conditioned.block_rows > 0 ? conditioned.block_rows : config.decay_block_rows;

@@ -12,14 +12,14 @@ namespace twindeck::identification {
 
 /// Free decays of one setup and condition.
 struct DecayResult {
-  Conditioned conditioned;  ///< without the records themselves
-  Identification found;     ///< ERA
-  std::string note;         ///< limits that the records do not carry; empty for none
+  ConditionedInfo conditioned;
+  Identification found;  ///< ERA
+  std::string note;      ///< limits that the records do not carry; empty for none
   /// A mode's frequency and damping by amplitude.
   struct ByAmplitude {
     std::string mode;  ///< of the condition's modes.csv, empty where it has none
     std::string record;
-    double frequency_Hz = 0.0;  ///< ERA's, that the filter was set to
+    std::size_t found = 0;  ///< position of the mode among `found`, whose frequency the filter was set to
     std::vector<AmplitudePoint> points;
   };
   std::vector<ByAmplitude> by_amplitude;

@@ -236,20 +236,10 @@ Conditioned condition_records(const records::Campaign& campaign, const records::
   }
 }
 
-Conditioned without_records(const Conditioned& conditioned) {
-  Conditioned rest;
-  rest.channels = conditioned.channels;
-  rest.inputs = conditioned.inputs;
-  rest.references = conditioned.references;
-  rest.rate_Hz = conditioned.rate_Hz;
-  rest.filtered = conditioned.filtered;
-  rest.block_rows = conditioned.block_rows;
-  rest.setup = conditioned.setup;
-  rest.condition = conditioned.condition;
-  rest.files = conditioned.files;
-  rest.quality = conditioned.quality;
-  rest.notes = conditioned.notes;
-  return rest;
+Index shortest_record(const std::vector<Samples>& records) {
+  Index shortest = records.front().rows();
+  for (const Samples& record : records) shortest = std::min(shortest, record.rows());
+  return shortest;
 }
 
 Eigen::VectorXd channel_rms(const std::vector<Samples>& records) {

@@ -16,13 +16,11 @@
 /// channels.
 namespace twindeck::identification {
 
-/// Records of one setup and condition made ready for identification.
-struct Conditioned {
+/// What is known of the records of one setup and condition, without their samples.
+struct ConditionedInfo {
   std::vector<records::CampaignChannel> channels;  ///< response columns that are used
   std::vector<records::CampaignChannel> inputs;    ///< input columns
   std::vector<Eigen::Index> references;            ///< positions among channels
-  std::vector<Samples> records;                    ///< detrended, decimated, SI units
-  std::vector<Samples> excitation;                 ///< of the inputs, one a record
   double rate_Hz = 0.0;                            ///< after decimation
   bool filtered = false;                           ///< decimation took out what lies above 0.8 of the Nyquist frequency
   long block_rows = 0;  ///< that the records are identified with: as configured, or chosen (sampling.hpp)
@@ -30,7 +28,13 @@ struct Conditioned {
   std::vector<std::string> files;       ///< one a record, relative to the campaign's folder
   std::vector<ChannelQuality> quality;  ///< of the records as read, every channel
   std::vector<std::string> notes;       ///< what the user should know of how the records were read
-  std::vector<std::string> warnings;    ///< channels that are left out, and why
+};
+
+/// Records of one setup and condition made ready for identification.
+struct Conditioned : ConditionedInfo {
+  std::vector<Samples> records;       ///< detrended, decimated, SI units
+  std::vector<Samples> excitation;    ///< of the inputs, one a record
+  std::vector<std::string> warnings;  ///< channels that are left out, and why
 };
 
 /// Reads, judges, repairs as asked, detrends and decimates, by a factor that is chosen where the configuration has 0. A record
@@ -57,8 +61,8 @@ struct Conditioned {
 void to_physical_shapes(Identification& found, const std::vector<records::CampaignChannel>& channels,
                         const Eigen::VectorXd& scale);
 
-/// All that is known of the records but the samples.
-[[nodiscard]] Conditioned without_records(const Conditioned& conditioned);
+/// Samples of the shortest record. @param records  at least one
+[[nodiscard]] Eigen::Index shortest_record(const std::vector<Samples>& records);
 
 /// RMS of each channel over the records.
 [[nodiscard]] Eigen::VectorXd channel_rms(const std::vector<Samples>& records);

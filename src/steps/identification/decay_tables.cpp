@@ -30,11 +30,10 @@ void write_decays(const std::vector<identification::DecayResult>& decays,
                  known(partner ? ambient->modes[at].deviation.frequency_Hz : 0.0), known(partner ? partner->mac : 0.0)});
     }
     for (const identification::DecayResult::ByAmplitude& by : decay.by_amplitude) {
-      const auto mode = std::find_if(decay.found.modes.begin(), decay.found.modes.end(),
-                                     [&](const auto& c) { return c.frequency_Hz == by.frequency_Hz; });
+      const Eigen::VectorXcd& shape = decay.found.modes[by.found].shape;
       for (const identification::AmplitudePoint& point : by.points) {
         levels.row({"free_decay", decay.conditioned.condition, decay.conditioned.setup, by.record, by.mode, point.amplitude,
-                    identification::quantity_at_largest(decay.conditioned.channels, mode->shape), point.frequency_Hz,
+                    identification::quantity_at_largest(decay.conditioned.channels, shape), point.frequency_Hz,
                     point.frequency_std_Hz, 100.0 * point.damping_ratio, 100.0 * point.damping_ratio_std, point.seconds});
       }
     }
