@@ -163,7 +163,7 @@ batch: build ## make batch BATCH="-j2 --config blind_trials=200": many runs as i
 	@snakemake -s workflows/batch/Snakefile $(BATCH)
 
 bench: build ## ratios against peers: modes, derivatives, identification, wind, reliability (results/bench/*.csv)
-	@cmake --build $(BUILD) -j $(JOBS) --target bench_modes bench_sysid bench_wind_field bench_reliability
+	@cmake --build $(BUILD) -j $(JOBS) --target bench_modes bench_identification bench_wind_field bench_reliability
 	@$(PRODUCT)workflows/python.sh tests/bench/run.py $(BIN) results/bench $(RUNS)
 
 bench-places: build ## make bench-places PLACES="25 100 400": processor seconds and memory of a diagnosis against candidate places (results/bench/places.csv)

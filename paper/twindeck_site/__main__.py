@@ -33,7 +33,7 @@ DOXYGEN = """PROJECT_NAME = twindeck
 INPUT = {source}
 RECURSIVE = YES
 FILE_PATTERNS = *.hpp
-EXCLUDE_PATTERNS = */steps/* */precompiled/* */tools/*
+EXCLUDE_PATTERNS = */steps/* */precompiled/*
 STRIP_FROM_PATH = {source}
 EXTRACT_ALL = YES
 JAVADOC_AUTOBRIEF = YES
@@ -86,7 +86,7 @@ def headers_page(root: Path, made: bool) -> str:
     """The page that leads to Doxygen's, or says how to get it."""
     link = ('<a href="api/index.html">The headers, one page each</a>' if made
             else f"Doxygen was not there when these pages were made (`{INSTALL}`).")
-    rooms = sorted(p.name for p in (root / "src").iterdir() if p.is_dir() and p.name not in ("steps", "tools", "precompiled"))
+    rooms = sorted(p.name for p in (root / "src").iterdir() if p.is_dir() and p.name not in ("steps", "precompiled"))
     return ("# C++ headers\n\n" + link + "\n\nEach folder of `src/` is a library: " + ", ".join(f"`{room}`" for room in rooms) +
             ". `src/layers.toml` says which library may use which. A header states what it computes, the equation with its source, the unit and the shape of each "
             "argument, and what it throws.\n")

@@ -63,7 +63,7 @@ std::optional<Lag> fitted(const std::vector<Phase>& phases) {
 
 }  // namespace
 
-void estimate_lags(Conditioned& conditioned, const sysid::Identification& found) {
+void estimate_lags(Conditioned& conditioned, const Identification& found) {
   for (std::size_t c = 0; c < conditioned.channels.size(); ++c) {
     const auto at = static_cast<Index>(c);
     std::vector<Phase> phases;
@@ -86,9 +86,9 @@ void estimate_lags(Conditioned& conditioned, const sysid::Identification& found)
   }
 }
 
-std::string lag_warning(const Conditioned& conditioned, const sysid::Identification& found) {
+std::string lag_warning(const Conditioned& conditioned, const Identification& found) {
   double highest_Hz = 0.0;
-  for (const sysid::Cluster& mode : found.modes) highest_Hz = std::max(highest_Hz, mode.frequency_Hz);
+  for (const Cluster& mode : found.modes) highest_Hz = std::max(highest_Hz, mode.frequency_Hz);
   std::vector<std::string> off;
   for (const records::CampaignChannel& channel : conditioned.channels) {
     const auto row = std::find_if(conditioned.quality.begin(), conditioned.quality.end(),

@@ -13,11 +13,11 @@ namespace twindeck::identification {
 ///
 /// Weighted least squares over the modes on the branch that fits best within ± a quarter period of the highest mode. Written
 /// into `conditioned.quality` (lag_s, lag_std_s); left unknown with fewer than two modes in which the channel takes part.
-void estimate_lags(Conditioned& conditioned, const sysid::Identification& found);
+void estimate_lags(Conditioned& conditioned, const Identification& found);
 
 /// A line that names the channels whose lag is no chance (ten deviations: dampers alone turn shapes by up to six) and matters
 /// (ten degrees at the highest mode found: shapes bend, and modes above may be missing).
 /// @param conditioned  with lags estimated @return empty where there is none
-[[nodiscard]] std::string lag_warning(const Conditioned& conditioned, const sysid::Identification& found);
+[[nodiscard]] std::string lag_warning(const Conditioned& conditioned, const Identification& found);
 
 }  // namespace twindeck::identification

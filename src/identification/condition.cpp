@@ -8,13 +8,13 @@
 
 #include "core/error.hpp"
 #include "identification/channel_lag.hpp"
+#include "identification/common_motion.hpp"
 #include "identification/doubts.hpp"
 #include "identification/limits.hpp"
+#include "identification/merge_preger.hpp"
 #include "identification/mode_choices.hpp"
 #include "identification/one_mode.hpp"
 #include "identification/sampling.hpp"
-#include "sysid/common_motion.hpp"
-#include "sysid/merge_preger.hpp"
 
 namespace twindeck::identification {
 
@@ -100,17 +100,17 @@ Scales preger_scales(const ConditionResult& result, const std::vector<Index>& re
 }
 
 /// PreGER of the same records. @param scale  of the channels, what a setup's records are divided by beside its level
-sysid::Identification preger(const ConditionResult& result, const std::vector<Index>& references,
-                             const IdentificationSettings& config, Eigen::VectorXd& scale) {
+Identification preger(const ConditionResult& result, const std::vector<Index>& references, const IdentificationSettings& config,
+                      Eigen::VectorXd& scale) {
   const auto n_channels = static_cast<Index>(result.channels.size());
   const double rate = result.setups.front().conditioned.rate_Hz;
-  const sysid::IdentifyOptions options = config.options(rate, result.channels);
+  const IdentifyOptions options = config.options(rate, result.channels);
   const Scales scales = preger_scales(result, references);
   scale = scales.channels;
-  std::vector<sysid::SetupCorrelations> setups;
+  std::vector<SetupCorrelations> setups;
   for (const SetupResult& setup : result.setups) {
     const double level = scales.level[setups.size()];
-    sysid::SetupCorrelations one{setup.conditioned.setup, positions(result, setup.conditioned.channels), {}, {}};
+    SetupCorrelations one{setup.conditioned.setup, positions(result, setup.conditioned.channels), {}, {}};
     for (const Index r : references) {
       one.references.push_back(position_of(setup.conditioned.channels, result.channels[static_cast<std::size_t>(r)].name));
     }
@@ -124,17 +124,12 @@ sysid::Identification preger(const ConditionResult& result, const std::vector<In
     one.lags = blocks.mean();
     setups.push_back(std::move(one));
   }
-  sysid::Identification found;
   // References alone must carry the orders.
   std::vector<int> orders = options.orders();
   const auto most = static_cast<int>((config.block_rows - 1) * static_cast<Index>(references.size()));
   std::erase_if(orders, [&](int order) { return order > most; });
-  if (orders.empty()) return found;
-  const auto poles = sysid::merge_preger(setups, n_channels, config.block_rows, orders, rate);
-  found.diagram = sysid::stabilisation_diagram(poles, options.criteria, options.limits);
-  found.modes = options.selection == sysid::Selection::paper
-                    ? sysid::identify_clusters(found.diagram, orders, options.cleaning)
-                    : sysid::automatic_clusters(found.diagram, orders, options.automatic);
+  if (orders.empty()) return {};
+  Identification found = modes_of_poles(merge_preger(setups, n_channels, config.block_rows, orders, rate), orders, options);
   to_physical_shapes(found, result.channels, scale);
   return found;
 }
@@ -145,7 +140,7 @@ void sort_by_frequency(ConditionResult& result) {
   std::iota(order.begin(), order.end(), std::size_t{0});
   std::stable_sort(order.begin(), order.end(),
                    [&](std::size_t a, std::size_t b) { return result.modes[a].frequency_Hz < result.modes[b].frequency_Hz; });
-  std::vector<sysid::MergedMode> modes;
+  std::vector<MergedMode> modes;
   std::vector<MergingCheck> checks;
   for (const std::size_t i : order) {
     modes.push_back(std::move(result.modes[i]));
@@ -157,7 +152,7 @@ void sort_by_frequency(ConditionResult& result) {
 
 void check_merging(ConditionResult& result, const std::vector<Index>& references, const IdentificationSettings& config) {
   Eigen::VectorXd scale;
-  const sysid::Identification before = preger(result, references, config, scale);
+  const Identification before = preger(result, references, config, scale);
   result.checks = merging_checks(result.modes, before, result.channels, scale);
   if (config.merge != "preger") return;
   for (std::size_t m = 0; m < result.modes.size(); ++m) take_preger(result.modes[m], result.checks[m]);
@@ -178,7 +173,7 @@ std::string limit_band(SetupResult& setup) {
   constexpr double kBeyond = 1.1;  // of the last common motion: the flank of a mode there
   const double nyquist = 0.5 * setup.conditioned.rate_Hz, peak = peak_above_band(setup);
   const double widest = (peak > 0.0 ? 1.0 : kFilteredBand) * nyquist;
-  const double common = sysid::highest_common_Hz(setup.conditioned.records, setup.conditioned.rate_Hz);
+  const double common = highest_common_Hz(setup.conditioned.records, setup.conditioned.rate_Hz);
   const bool limited = kBeyond * common > setup.limits.lowest_Hz && kBeyond * common < widest;
   setup.limits.highest_Hz = limited ? kBeyond * common : widest;
   const std::string why =
@@ -243,14 +238,14 @@ ConditionResult read_condition(const records::Campaign& campaign, const std::vec
 
 void merge_setups(ConditionResult& result) {
   list_channels(result);
-  std::vector<sysid::SetupModes> setups;
+  std::vector<SetupModes> setups;
   for (const SetupResult& setup : result.setups) {
     setups.push_back(
         {setup.conditioned.setup, positions(result, setup.conditioned.channels), setup.found.modes, setup.found.deviations});
   }
   const std::vector<Index> references = common_references(result);
   if (setups.size() > 1 && references.empty()) throw no_common_reference({}, result);
-  result.modes = sysid::merge_poser(setups, static_cast<Index>(result.channels.size()), references, {});
+  result.modes = merge_poser(setups, static_cast<Index>(result.channels.size()), references, {});
 }
 
 void identify_condition(ConditionResult& result, const IdentificationSettings& config, Reporter& reporter) {
@@ -265,14 +260,14 @@ void identify_condition(ConditionResult& result, const IdentificationSettings& c
     setup.found = identify_modes(setup.conditioned, setup.limits);
     take_choices(setup.found, config.choices, setup.conditioned, channel_rms(setup.conditioned.records));
     if (!band.empty()) reporter.say(band);
-    for (const sysid::PeriodicLine& line : setup.found.periodic) {
+    for (const PeriodicLine& line : setup.found.periodic) {
       reporter.say(fmt::format("setup {}: {:.4f} Hz is a steady line of a periodic force{}, no mode", name, line.frequency_Hz,
                                line.multiple > 1 ? fmt::format(" ({} times the lowest)", line.multiple) : ""));
     }
   }
-  std::vector<sysid::Identification*> found;
+  std::vector<Identification*> found;
   for (SetupResult& setup : result.setups) found.push_back(&setup.found);
-  if (config.selection == "automatic") sysid::drop_lines_of_others(found, config.periodic);
+  if (config.selection == "automatic") drop_lines_of_others(found, config.periodic);
   for (SetupResult& setup : result.setups) {
     estimate_lags(setup.conditioned, setup.found);
     const std::string late = lag_warning(setup.conditioned, setup.found);

@@ -5,8 +5,8 @@
 
 #include "core/reporter.hpp"
 #include "identification/identification.hpp"
+#include "identification/merge_poser.hpp"
 #include "identification/merging_check.hpp"
-#include "sysid/merge_poser.hpp"
 
 namespace twindeck::identification {
 
@@ -14,9 +14,9 @@ namespace twindeck::identification {
 struct SetupResult {
   Conditioned conditioned;
   IdentificationSettings limits;  ///< the configuration as far as its records carry it
-  sysid::Identification found;
+  Identification found;
   signal::PowerSpectra spectra;
-  sysid::SingularSpectra singular;
+  SingularSpectra singular;
 };
 
 /// All setups of a condition.
@@ -24,9 +24,9 @@ struct ConditionResult {
   std::string condition;
   std::vector<records::CampaignChannel> channels;  ///< of all setups, in the order of their first appearance
   std::vector<SetupResult> setups;
-  std::vector<sysid::MergedMode> modes;  ///< ascending in frequency
-  std::vector<MergingCheck> checks;      ///< one a mode where there are several setups
-  bool of_decays = false;                ///< ERA's modes of free decays (decays.hpp): no spectra
+  std::vector<MergedMode> modes;     ///< ascending in frequency
+  std::vector<MergingCheck> checks;  ///< one a mode where there are several setups
+  bool of_decays = false;            ///< ERA's modes of free decays (decays.hpp): no spectra
 };
 
 /// The records of each setup made ready, none identified yet. A setup whose records cannot be used is left out with a warning,

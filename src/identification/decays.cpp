@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "identification/mode_choices.hpp"
 
@@ -16,35 +17,30 @@ namespace {
 /// MAC over the channels that both have.
 double common_mac(const Eigen::VectorXcd& a, const std::vector<records::CampaignChannel>& a_channels, const Eigen::VectorXcd& b,
                   const std::vector<records::CampaignChannel>& b_channels) {
-  std::complex<double> product = 0.0;
-  double aa = 0.0, bb = 0.0;
+  Eigen::VectorXcd same = Eigen::VectorXcd::Constant(a.size(), std::numeric_limits<double>::quiet_NaN());  // b at a's
   for (std::size_t i = 0; i < a_channels.size(); ++i) {
-    for (std::size_t j = 0; j < b_channels.size(); ++j) {
-      const std::complex<double> x = a[static_cast<Index>(i)], y = b[static_cast<Index>(j)];
-      if (a_channels[i].name != b_channels[j].name || std::isnan(x.real()) || std::isnan(y.real())) continue;
-      product += std::conj(x) * y;
-      aa += std::norm(x);
-      bb += std::norm(y);
-    }
+    for (std::size_t j = 0; j < b_channels.size(); ++j)
+      if (a_channels[i].name == b_channels[j].name) same[static_cast<Index>(i)] = b[static_cast<Index>(j)];
   }
-  return aa > 0.0 && bb > 0.0 ? std::norm(product) / (aa * bb) : 0.0;
+  return known_mac(a, same);
 }
 
 void read_by_amplitude(DecayResult& result, const Eigen::MatrixXd& decay, double rate_Hz, const std::string& record,
                        const IdentificationSettings& config, const ConditionResult* ambient) {
-  for (const sysid::Cluster& mode : result.found.modes) {
+  for (std::size_t m = 0; m < result.found.modes.size(); ++m) {
+    const Cluster& mode = result.found.modes[m];
     // Neighbours closer than the filter can tell apart beat in its band.
-    const bool alone = std::all_of(result.found.modes.begin(), result.found.modes.end(), [&](const sysid::Cluster& other) {
+    const bool alone = std::all_of(result.found.modes.begin(), result.found.modes.end(), [&](const Cluster& other) {
       return &other == &mode || std::abs(other.frequency_Hz - mode.frequency_Hz) > 1.5 * config.decay_band_Hz;
     });
     if (!alone || mode.frequency_Hz < 2.0 * config.decay_band_Hz) continue;
-    const sysid::DecayingCoordinate q =
-        sysid::decaying_coordinate(decay, rate_Hz, mode.shape, mode.frequency_Hz, mode.damping_ratio, config.decay_band_Hz);
+    const DecayingCoordinate q =
+        decaying_coordinate(decay, rate_Hz, mode.shape, mode.frequency_Hz, mode.damping_ratio, config.decay_band_Hz);
     const auto points =
-        sysid::decay_by_amplitude(q.value, rate_Hz, 0.5 / config.decay_band_Hz, static_cast<int>(config.decay_bands), q.noise);
+        decay_by_amplitude(q.value, rate_Hz, 0.5 / config.decay_band_Hz, static_cast<int>(config.decay_bands), q.noise);
     if (points.empty()) continue;
     const auto partner = partner_of(mode, result.conditioned.channels, ambient);
-    result.by_amplitude.push_back({partner ? std::to_string(partner->mode + 1) : "", record, mode.frequency_Hz, points});
+    result.by_amplitude.push_back({partner ? std::to_string(partner->mode + 1) : "", record, m, points});
   }
 }
 
@@ -74,7 +70,7 @@ Index release_sample(const Samples& data, double rate_Hz) {
 
 /// Samples until the motion is down to three times what is left at the end; all where it does not come to rest.
 Index decaying_samples(const Eigen::MatrixXd& decay) {
-  constexpr double kAbove = 9.0;  // of the mean square at the end
+  constexpr double kAboveTheRest = 9.0;  // of the mean square at the end
   constexpr Index kWindows = 50;
   const Eigen::VectorXd energy = energy_of(decay);
   const Index window = energy.size() / kWindows;
@@ -82,7 +78,7 @@ Index decaying_samples(const Eigen::MatrixXd& decay) {
   const double rest = energy.tail(energy.size() / 10).mean();
   Index end = 0;
   for (Index w = 0; w < kWindows; ++w) {
-    if (energy.segment(w * window, window).mean() > kAbove * rest) end = (w + 1) * window;
+    if (energy.segment(w * window, window).mean() > kAboveTheRest * rest) end = (w + 1) * window;
   }
   return end == 0 || 10 * end > 9 * energy.size() ? energy.size() : end;
 }
@@ -113,7 +109,7 @@ Index length_of(const std::vector<Eigen::MatrixXd>& decays, double rate_Hz, Iden
 
 }  // namespace
 
-std::optional<AmbientPartner> partner_of(const sysid::Cluster& mode, const std::vector<records::CampaignChannel>& channels,
+std::optional<AmbientPartner> partner_of(const Cluster& mode, const std::vector<records::CampaignChannel>& channels,
                                          const ConditionResult* ambient) {
   std::optional<AmbientPartner> best;
   if (ambient == nullptr) return best;
@@ -146,7 +142,7 @@ std::vector<ConditionResult> decay_conditions(std::vector<DecayResult>& decays) 
     }
     ConditionResult& result = *std::find_if(results.begin(), results.end(), [&](const auto& r) { return r.condition == name; });
     SetupResult& setup = result.setups.emplace_back();
-    setup.conditioned = decay.conditioned;
+    static_cast<ConditionedInfo&>(setup.conditioned) = decay.conditioned;
     setup.conditioned.quality.clear();  // stays with the decay
     setup.found = decay.found;
   }
@@ -154,9 +150,7 @@ std::vector<ConditionResult> decay_conditions(std::vector<DecayResult>& decays) 
   for (DecayResult& decay : decays) {
     const ConditionResult* result = condition_named(results, decay.conditioned.condition);
     for (DecayResult::ByAmplitude& by : decay.by_amplitude) {
-      const auto mode = std::find_if(decay.found.modes.begin(), decay.found.modes.end(),
-                                     [&](const sysid::Cluster& m) { return m.frequency_Hz == by.frequency_Hz; });
-      const auto partner = partner_of(*mode, decay.conditioned.channels, result);
+      const auto partner = partner_of(decay.found.modes[by.found], decay.conditioned.channels, result);
       if (partner) by.mode = std::to_string(partner->mode + 1);
     }
   }
@@ -168,7 +162,7 @@ std::vector<DecayResult> identify_free_decays(const std::vector<Conditioned>& re
   std::vector<DecayResult> decays;
   for (const Conditioned& conditioned : records) {
     DecayResult result;
-    result.conditioned = without_records(conditioned);
+    result.conditioned = conditioned;
     const Eigen::VectorXd scale = channel_rms(conditioned.records);
     IdentificationSettings own = config;
     own.block_rows = conditioned.block_rows > 0 ? conditioned.block_rows : config.decay_block_rows;
@@ -192,8 +186,8 @@ std::vector<DecayResult> identify_free_decays(const std::vector<Conditioned>& re
         quiet.emplace_back(rest.rowwise() - rest.colwise().mean());
       }
     }
-    const sysid::IdentifyOptions options = own.options(conditioned.rate_Hz, conditioned.channels);
-    result.found = sysid::identify_decays(pieces, conditioned.rate_Hz, options, seed, quiet);
+    const IdentifyOptions options = own.options(conditioned.rate_Hz, conditioned.channels);
+    result.found = identify_decays(pieces, conditioned.rate_Hz, options, seed, quiet);
     to_physical_shapes(result.found, conditioned.channels, scale);
     take_choices(result.found, config.choices, conditioned, scale);
     const ConditionResult* ambient = condition_named(results, conditioned.condition);
@@ -210,15 +204,15 @@ std::vector<AmbientAmplitude> ambient_amplitudes(const std::vector<ConditionResu
   std::vector<AmbientAmplitude> amplitudes;
   for (const ConditionResult& result : results) {
     for (std::size_t m = 0; m < result.modes.size(); ++m) {
-      const sysid::MergedMode& mode = result.modes[m];
+      const MergedMode& mode = result.modes[m];
       const SetupResult& setup = result.setups[mode.members.front().first];
-      const sysid::Cluster& own = setup.found.modes[mode.members.front().second];
+      const Cluster& own = setup.found.modes[mode.members.front().second];
       double squares = 0.0, seconds = 0.0;
       for (const Samples& record : setup.conditioned.records) {
         // Wide enough for the mode's half-power band, no wider than the filter of the decays.
         const double half_width = std::max(0.25 * config.decay_band_Hz, 2.0 * mode.damping_ratio * mode.frequency_Hz);
         const Eigen::VectorXcd q =
-            sysid::modal_coordinate(record, setup.conditioned.rate_Hz, own.shape, mode.frequency_Hz, half_width);
+            modal_coordinate(record, setup.conditioned.rate_Hz, own.shape, mode.frequency_Hz, half_width);
         squares += q.squaredNorm() / setup.conditioned.rate_Hz;
         seconds += static_cast<double>(record.rows()) / setup.conditioned.rate_Hz;
       }

@@ -5,22 +5,22 @@
 #include <vector>
 
 #include "core/samples.hpp"
+#include "identification/amplitude.hpp"
 #include "identification/condition.hpp"
-#include "sysid/amplitude.hpp"
 
 namespace twindeck::identification {
 
 /// Free decays of one setup and condition.
 struct DecayResult {
-  Conditioned conditioned;      ///< without the records themselves
-  sysid::Identification found;  ///< ERA
-  std::string note;             ///< limits that the records do not carry; empty for none
+  ConditionedInfo conditioned;
+  Identification found;  ///< ERA
+  std::string note;      ///< limits that the records do not carry; empty for none
   /// A mode's frequency and damping by amplitude.
   struct ByAmplitude {
     std::string mode;  ///< of the condition's modes.csv, empty where it has none
     std::string record;
-    double frequency_Hz = 0.0;  ///< ERA's, that the filter was set to
-    std::vector<sysid::AmplitudePoint> points;
+    std::size_t found = 0;  ///< position of the mode among `found`, whose frequency the filter was set to
+    std::vector<AmplitudePoint> points;
   };
   std::vector<ByAmplitude> by_amplitude;
 };
@@ -32,7 +32,7 @@ struct AmbientPartner {
 };
 /// The ambient mode of the same condition nearest in shape (MAC above 0.8) within 10 % in frequency.
 /// @param channels  of the shape  @param ambient  null for a condition without ambient records
-[[nodiscard]] std::optional<AmbientPartner> partner_of(const sysid::Cluster& mode,
+[[nodiscard]] std::optional<AmbientPartner> partner_of(const Cluster& mode,
                                                        const std::vector<records::CampaignChannel>& channels,
                                                        const ConditionResult* ambient);
 /// Null for a name that none has.

@@ -38,7 +38,7 @@ void short_blocks(const ConditionResult& result, std::vector<std::string>& doubt
 void far_dampings(const ConditionResult& result, std::vector<std::string>& doubts) {
   if (result.modes.size() < kFewestModes) return;
   std::vector<double> all;
-  for (const sysid::MergedMode& mode : result.modes) all.push_back(mode.damping_ratio);
+  for (const MergedMode& mode : result.modes) all.push_back(mode.damping_ratio);
   std::nth_element(all.begin(), all.begin() + std::ssize(all) / 2, all.end());
   const double median = all[all.size() / 2];
   for (std::size_t m = 0; m < result.modes.size(); ++m) {
@@ -53,11 +53,11 @@ void far_dampings(const ConditionResult& result, std::vector<std::string>& doubt
 bool is_explained(const SetupResult& setup, double f) {
   const auto near = [&](double other, double half_width) { return std::abs(other - f) <= std::max(kNearPeak * f, half_width); };
   const double spacing = setup.singular.frequency_Hz[1];
-  const auto mode = std::any_of(setup.found.modes.begin(), setup.found.modes.end(), [&](const sysid::Cluster& m) {
+  const auto mode = std::any_of(setup.found.modes.begin(), setup.found.modes.end(), [&](const Cluster& m) {
     return near(m.frequency_Hz, std::max(3.0 * spacing, 2.0 * m.damping_ratio * m.frequency_Hz));
   });
   const auto line = std::any_of(setup.found.periodic.begin(), setup.found.periodic.end(),
-                                [&](const sysid::PeriodicLine& p) { return near(p.frequency_Hz, 3.0 * spacing); });
+                                [&](const PeriodicLine& p) { return near(p.frequency_Hz, 3.0 * spacing); });
   return mode || line;
 }
 

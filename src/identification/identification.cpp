@@ -11,10 +11,10 @@
 #include <string_view>
 
 #include "core/error.hpp"
+#include "identification/input_output.hpp"
 #include "identification/lying_channels.hpp"
 #include "identification/sampling.hpp"
 #include "signal/condition.hpp"
-#include "sysid/input_output.hpp"
 
 namespace twindeck::identification {
 
@@ -236,20 +236,10 @@ Conditioned condition_records(const records::Campaign& campaign, const records::
   }
 }
 
-Conditioned without_records(const Conditioned& conditioned) {
-  Conditioned rest;
-  rest.channels = conditioned.channels;
-  rest.inputs = conditioned.inputs;
-  rest.references = conditioned.references;
-  rest.rate_Hz = conditioned.rate_Hz;
-  rest.filtered = conditioned.filtered;
-  rest.block_rows = conditioned.block_rows;
-  rest.setup = conditioned.setup;
-  rest.condition = conditioned.condition;
-  rest.files = conditioned.files;
-  rest.quality = conditioned.quality;
-  rest.notes = conditioned.notes;
-  return rest;
+Index shortest_record(const std::vector<Samples>& records) {
+  Index shortest = records.front().rows();
+  for (const Samples& record : records) shortest = std::min(shortest, record.rows());
+  return shortest;
 }
 
 Eigen::VectorXd channel_rms(const std::vector<Samples>& records) {
@@ -268,14 +258,14 @@ Eigen::VectorXcd physical_shape(const Eigen::VectorXcd& shape, const std::vector
     const int order = derivative(channels[static_cast<std::size_t>(c)].quantity) - derivative(channels.front().quantity);
     physical[c] *= scale[c] * std::pow(lambda, -order);
   }
-  return sysid::normalised_shape(physical);
+  return normalised_shape(physical);
 }
 
-void to_physical_shapes(sysid::Identification& found, const std::vector<records::CampaignChannel>& channels,
+void to_physical_shapes(Identification& found, const std::vector<records::CampaignChannel>& channels,
                         const Eigen::VectorXd& scale) {
   const auto n = static_cast<Index>(channels.size());
   for (std::size_t m = 0; m < found.modes.size(); ++m) {
-    sysid::Cluster& mode = found.modes[m];
+    Cluster& mode = found.modes[m];
     const std::complex<double> lambda = found.diagram[mode.representative].pole.eigenvalue;
     Eigen::VectorXcd factor(n);
     for (Index c = 0; c < n; ++c) {
@@ -284,10 +274,10 @@ void to_physical_shapes(sysid::Identification& found, const std::vector<records:
     }
     const Eigen::VectorXcd physical = mode.shape.cwiseProduct(factor);
     const double norm = physical.norm();
-    mode.shape = sysid::normalised_shape(physical);
+    mode.shape = normalised_shape(physical);
     if (m >= found.deviations.size()) continue;
     // The turn by 0, 90 or 180 degrees between quantities mixes real and imaginary parts: the larger of both holds for either.
-    sysid::ModeDeviation& deviation = found.deviations[m];
+    ModeDeviation& deviation = found.deviations[m];
     const Eigen::VectorXd magnitude = factor.cwiseAbs() / norm;
     if ((factor.imag().array() != 0.0).any())
       deviation.shape_real = deviation.shape_imag = deviation.shape_real.cwiseMax(deviation.shape_imag);
@@ -298,26 +288,25 @@ void to_physical_shapes(sysid::Identification& found, const std::vector<records:
 
 namespace {
 
-sysid::Identification identify_ambient(const std::vector<Samples>& scaled, const Conditioned& conditioned,
-                                       const IdentificationSettings& config, const sysid::IdentifyOptions& options) {
+Identification identify_ambient(const std::vector<Samples>& scaled, const Conditioned& conditioned,
+                                const IdentificationSettings& config, const IdentifyOptions& options) {
   signal::BlockCorrelations blocks;
   for (const Samples& record : scaled) {
     blocks.append(signal::correlations(record, conditioned.references, 2 * config.block_rows, config.blocks));
   }
-  return config.method == "data"
-             ? sysid::identify_from_data(scaled, conditioned.references, blocks, conditioned.rate_Hz, options)
-             : sysid::identify(blocks, conditioned.rate_Hz, options);
+  return config.method == "data" ? identify_from_data(scaled, conditioned.references, blocks, conditioned.rate_Hz, options)
+                                 : identify(blocks, conditioned.rate_Hz, options);
 }
 
 }  // namespace
 
-sysid::Identification identify_modes(const Conditioned& conditioned, const IdentificationSettings& config) {
-  const sysid::IdentifyOptions options = config.options(conditioned.rate_Hz, conditioned.channels);
+Identification identify_modes(const Conditioned& conditioned, const IdentificationSettings& config) {
+  const IdentifyOptions options = config.options(conditioned.rate_Hz, conditioned.channels);
   // Channels on one scale, so that a large or a distant one does not hide the others and units do not matter.
   const Eigen::VectorXd scale = channel_rms(conditioned.records);
   std::vector<Samples> scaled;
   for (const Samples& record : conditioned.records) scaled.push_back(scaled_channels(record, scale.cwiseInverse()));
-  sysid::Identification found;
+  Identification found;
   if (!conditioned.excitation.empty()) {
     if (scaled.size() > 1) {
       throw InputError(
@@ -327,21 +316,21 @@ sysid::Identification identify_modes(const Conditioned& conditioned, const Ident
     }
     const Samples& input = conditioned.excitation.front();
     const Eigen::VectorXd input_scale = channel_rms(conditioned.excitation);
-    found = sysid::identify_input_output(input * input_scale.cwiseInverse().asDiagonal(), scaled.front(), conditioned.rate_Hz,
-                                         options);
+    found =
+        identify_input_output(input * input_scale.cwiseInverse().asDiagonal(), scaled.front(), conditioned.rate_Hz, options);
   } else {
     found = identify_ambient(scaled, conditioned, config, options);
   }
-  if (options.selection == sysid::Selection::automatic && conditioned.excitation.empty()) {
-    sysid::mark_periodic(found, scaled, conditioned.rate_Hz, options.periodic);
+  if (options.selection == Selection::automatic && conditioned.excitation.empty()) {
+    mark_periodic(found, scaled, conditioned.rate_Hz, options.periodic);
     if (!found.periodic.empty()) {
       // A line beside a mode pulls the mode's poles to itself at small orders: once more, without the lines.
-      const std::vector<sysid::PeriodicLine> lines = sysid::without_lines(
+      const std::vector<PeriodicLine> lines = without_lines(
           scaled, found.periodic, conditioned.rate_Hz, options.limits.lowest_Hz, options.limits.highest_Hz, options.periodic);
       found = identify_ambient(scaled, conditioned, config, options);
-      sysid::mark_periodic(found, scaled, conditioned.rate_Hz, options.periodic, lines);
+      mark_periodic(found, scaled, conditioned.rate_Hz, options.periodic, lines);
       const bool nothing_is_left = channel_rms(scaled).maxCoeff() < kUnresolved;
-      if (nothing_is_left) sysid::keep_modes(found, std::vector<bool>(found.modes.size(), false));
+      if (nothing_is_left) keep_modes(found, std::vector<bool>(found.modes.size(), false));
     }
   } else {
     found.periodic.clear();  // candidates that nobody judged
@@ -350,7 +339,7 @@ sysid::Identification identify_modes(const Conditioned& conditioned, const Ident
   return found;
 }
 
-sysid::SingularSpectra singular_spectra(const Conditioned& conditioned, const IdentificationSettings& config) {
+SingularSpectra singular_spectra(const Conditioned& conditioned, const IdentificationSettings& config) {
   const Eigen::VectorXd scale = channel_rms(conditioned.records);
   signal::CrossSpectra average;
   for (const Samples& record : conditioned.records) {
@@ -363,7 +352,7 @@ sysid::SingularSpectra singular_spectra(const Conditioned& conditioned, const Id
     average.n_segments += one.n_segments;
   }
   for (Eigen::MatrixXcd& density : average.density) density /= static_cast<double>(average.n_segments);
-  return sysid::singular_spectra(average, 3);
+  return singular_spectra(average, 3);
 }
 
 signal::PowerSpectra average_spectra(const Conditioned& conditioned, const IdentificationSettings& config) {

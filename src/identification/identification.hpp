@@ -4,25 +4,23 @@
 #include <vector>
 
 #include "core/samples.hpp"
+#include "identification/efdd.hpp"
 #include "identification/identification_settings.hpp"
+#include "identification/identify.hpp"
 #include "identification/quality.hpp"
 #include "records/campaign.hpp"
 #include "signal/welch.hpp"
-#include "sysid/efdd.hpp"
-#include "sysid/identify.hpp"
 
 /// Records of a campaign to modes with standard deviations: judged, made ready, identified setup by setup, merged; free decays
 /// and stays beside them. It takes records as the campaign's reader gives them; it gives modes, spectra and the quality of the
 /// channels.
 namespace twindeck::identification {
 
-/// Records of one setup and condition made ready for identification.
-struct Conditioned {
+/// What is known of the records of one setup and condition, without their samples.
+struct ConditionedInfo {
   std::vector<records::CampaignChannel> channels;  ///< response columns that are used
   std::vector<records::CampaignChannel> inputs;    ///< input columns
   std::vector<Eigen::Index> references;            ///< positions among channels
-  std::vector<Samples> records;                    ///< detrended, decimated, SI units
-  std::vector<Samples> excitation;                 ///< of the inputs, one a record
   double rate_Hz = 0.0;                            ///< after decimation
   bool filtered = false;                           ///< decimation took out what lies above 0.8 of the Nyquist frequency
   long block_rows = 0;  ///< that the records are identified with: as configured, or chosen (sampling.hpp)
@@ -30,7 +28,13 @@ struct Conditioned {
   std::vector<std::string> files;       ///< one a record, relative to the campaign's folder
   std::vector<ChannelQuality> quality;  ///< of the records as read, every channel
   std::vector<std::string> notes;       ///< what the user should know of how the records were read
-  std::vector<std::string> warnings;    ///< channels that are left out, and why
+};
+
+/// Records of one setup and condition made ready for identification.
+struct Conditioned : ConditionedInfo {
+  std::vector<Samples> records;       ///< detrended, decimated, SI units
+  std::vector<Samples> excitation;    ///< of the inputs, one a record
+  std::vector<std::string> warnings;  ///< channels that are left out, and why
 };
 
 /// Reads, judges, repairs as asked, detrends and decimates, by a factor that is chosen where the configuration has 0. A record
@@ -46,7 +50,7 @@ struct Conditioned {
 /// the group has measured inputs. Records are pooled. Shapes are brought to the first channel's quantity: with lambda the pole,
 /// a velocity is lambda times a displacement.
 /// @throws InputError  if the records are too short or the orders too large
-[[nodiscard]] sysid::Identification identify_modes(const Conditioned& conditioned, const IdentificationSettings& config);
+[[nodiscard]] Identification identify_modes(const Conditioned& conditioned, const IdentificationSettings& config);
 
 /// A shape over scaled channels (value = recorded / scale) as a physical one of the first channel's quantity, unit norm.
 [[nodiscard]] Eigen::VectorXcd physical_shape(const Eigen::VectorXcd& shape,
@@ -54,11 +58,11 @@ struct Conditioned {
                                               const Eigen::VectorXd& scale, double frequency_Hz, double damping_ratio);
 /// Brings shapes of scaled channels (value = recorded / scale) to physical ones of the first channel's quantity, deviations
 /// with them.
-void to_physical_shapes(sysid::Identification& found, const std::vector<records::CampaignChannel>& channels,
+void to_physical_shapes(Identification& found, const std::vector<records::CampaignChannel>& channels,
                         const Eigen::VectorXd& scale);
 
-/// All that is known of the records but the samples.
-[[nodiscard]] Conditioned without_records(const Conditioned& conditioned);
+/// Samples of the shortest record. @param records  at least one
+[[nodiscard]] Eigen::Index shortest_record(const std::vector<Samples>& records);
 
 /// RMS of each channel over the records.
 [[nodiscard]] Eigen::VectorXd channel_rms(const std::vector<Samples>& records);
@@ -67,6 +71,6 @@ void to_physical_shapes(sysid::Identification& found, const std::vector<records:
 [[nodiscard]] signal::PowerSpectra average_spectra(const Conditioned& conditioned, const IdentificationSettings& config);
 
 /// Singular values of the cross spectral matrix, channels scaled to unit RMS: [1/Hz].
-[[nodiscard]] sysid::SingularSpectra singular_spectra(const Conditioned& conditioned, const IdentificationSettings& config);
+[[nodiscard]] SingularSpectra singular_spectra(const Conditioned& conditioned, const IdentificationSettings& config);
 
 }  // namespace twindeck::identification

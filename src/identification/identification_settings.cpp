@@ -25,9 +25,8 @@ double highest_of(const IdentificationSettings& config, double rate_Hz) {
 
 int derivative(const std::string& quantity) { return quantity == "acceleration" ? 2 : quantity == "velocity" ? 1 : 0; }
 
-sysid::IdentifyOptions IdentificationSettings::options(double rate_Hz,
-                                                       const std::vector<records::CampaignChannel>& channels) const {
-  sysid::IdentifyOptions options;
+IdentifyOptions IdentificationSettings::options(double rate_Hz, const std::vector<records::CampaignChannel>& channels) const {
+  IdentifyOptions options;
   options.block_rows = block_rows;
   options.minimum_order =
       static_cast<int>(std::min(minimum_order, maximum_order));  // free decays and stays have maxima of their own
@@ -35,7 +34,7 @@ sysid::IdentifyOptions IdentificationSettings::options(double rate_Hz,
   options.order_step = static_cast<int>(order_step);
   options.criteria = criteria;
   options.limits = {lowest_Hz, highest_of(*this, rate_Hz), largest_damping};
-  options.selection = selection == "paper" ? sysid::Selection::paper : sysid::Selection::automatic;
+  options.selection = selection == "paper" ? Selection::paper : Selection::automatic;
   options.cleaning = cleaning;
   options.automatic = automatic;
   options.periodic = periodic;

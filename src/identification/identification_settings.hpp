@@ -3,8 +3,8 @@
 #include <string>
 #include <vector>
 
+#include "identification/identify.hpp"
 #include "records/campaign_channels.hpp"
-#include "sysid/identify.hpp"
 
 namespace twindeck::identification {
 
@@ -38,12 +38,12 @@ struct IdentificationSettings {
   double largest_lone = 50.0;  ///< [-] robust deviations
   double lowest_Hz = 0.0;
   double highest_Hz = 0.0;  ///< 0: left open, at most 0.8 of the Nyquist frequency after decimation, the filter's passband
-  sysid::StabilisationCriteria criteria;
+  StabilisationCriteria criteria;
   double largest_damping = 0.20;
   double largest_deviation = 0.01, largest_law_ratio = 10.0, largest_shape_deviation = 0.6;
-  sysid::CleaningRule cleaning;
-  sysid::AutomaticRule automatic;
-  sysid::PeriodicRule periodic;
+  CleaningRule cleaning;
+  AutomaticRule automatic;
+  PeriodicRule periodic;
   // Free decays (ERA).
   long decay_decimation = 0, decay_block_rows = 60, decay_maximum_order = 40;
   double decay_start_s = 0.3, decay_length_s = 20.0, decay_band_Hz = 0.08;
@@ -55,7 +55,7 @@ struct IdentificationSettings {
   std::vector<ModeChoice> choices;  ///< of modes by hand
 
   /// Settings of the subspace identification for records of this rate (after decimation) and these responses.
-  [[nodiscard]] sysid::IdentifyOptions options(double rate_Hz, const std::vector<records::CampaignChannel>& channels) const;
+  [[nodiscard]] IdentifyOptions options(double rate_Hz, const std::vector<records::CampaignChannel>& channels) const;
 };
 
 /// 2 for an acceleration, 1 for a velocity, 0 for a displacement.

@@ -13,18 +13,12 @@ namespace {
 
 constexpr long kFewestBlocks = 8;      // deviations from fewer blocks are known to worse than 30 %
 constexpr long kFewestBlockRows = 10;  // fewer hardly carry one mode
-constexpr long kLeastSegment = 64;     // samples of a spectrum that shows anything
+constexpr long kSpectrumSegment = 64;  // samples of a spectrum that shows anything
 
 /// Samples of a block for each block row: twice the lags, which are two a row (signal::correlations).
 constexpr long kSamplesPerRow = 4;
 
-long shortest(const std::vector<Samples>& records) {
-  const auto least =
-      std::min_element(records.begin(), records.end(), [](const Samples& a, const Samples& b) { return a.rows() < b.rows(); });
-  return static_cast<long>(least->rows());
-}
-
-/// Samples that an input-output identification needs for each block row (sysid::identify_input_output).
+/// Samples that an input-output identification needs for each block row (identify_input_output).
 long samples_per_row_with_inputs(const Conditioned& conditioned) {
   return static_cast<long>(4 * (conditioned.channels.size() + conditioned.inputs.size()) + 2);
 }
@@ -49,12 +43,12 @@ class Limits {
 }  // namespace
 
 CarriedLimits carried_by(const Conditioned& conditioned, const IdentificationSettings& config) {
-  const long n = shortest(conditioned.records);
+  const long n = shortest_record(conditioned.records);
   const bool with_inputs = !conditioned.excitation.empty();
   // Who asks for less than these gets it.
   const long fewest_rows = std::min(config.block_rows, kFewestBlockRows), blocks = std::min(config.blocks, kFewestBlocks);
   const long identified = fewest_rows * (with_inputs ? samples_per_row_with_inputs(conditioned) : kSamplesPerRow * blocks);
-  const long least = std::max(identified, std::min(config.welch_segment, kLeastSegment));
+  const long least = std::max(identified, std::min(config.welch_segment, kSpectrumSegment));
   if (n < least) {
     throw UnusableRecord({conditioned.files.front(), 0, ""},
                          fmt::format("has {} samples after decimation, expected at least {}", n, least),

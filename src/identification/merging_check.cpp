@@ -24,17 +24,17 @@ void set(MergingCheck& check, double frequency_Hz, double damping_ratio, const E
 }
 
 /// A mode that PreGER's own selection lacks, from the poles of its frequency.
-void set_nearest_poles(MergingCheck& check, const sysid::Identification& preger, const sysid::MergedMode& mode) {
-  std::map<int, const sysid::Pole*> nearest;
-  const auto off = [&](const sysid::Pole& pole) { return std::abs(pole.frequency_Hz - mode.frequency_Hz); };
-  for (const sysid::DiagramPole& p : preger.diagram) {
+void set_nearest_poles(MergingCheck& check, const Identification& preger, const MergedMode& mode) {
+  std::map<int, const Pole*> nearest;
+  const auto off = [&](const Pole& pole) { return std::abs(pole.frequency_Hz - mode.frequency_Hz); };
+  for (const DiagramPole& p : preger.diagram) {
     if (off(p.pole) > kSamePole * mode.frequency_Hz) continue;
     const auto [at, is_new] = nearest.try_emplace(p.pole.order, &p.pole);
     if (!is_new && off(p.pole) < off(*at->second)) at->second = &p.pole;
   }
   if (nearest.size() < kFewestOrders) return;
   std::vector<double> frequencies, dampings;
-  const sysid::Pole* reference = nearest.rbegin()->second;
+  const Pole* reference = nearest.rbegin()->second;
   Eigen::VectorXcd shape = Eigen::VectorXcd::Zero(reference->shape.size());
   for (const auto& [order, pole] : nearest) {
     frequencies.push_back(pole->frequency_Hz);
@@ -60,13 +60,13 @@ double known_mac(const Eigen::VectorXcd& a, const Eigen::VectorXcd& b) {
   return aa > 0.0 && bb > 0.0 ? std::norm(product) / (aa * bb) : 0.0;
 }
 
-std::vector<MergingCheck> merging_checks(const std::vector<sysid::MergedMode>& modes, const sysid::Identification& preger,
+std::vector<MergingCheck> merging_checks(const std::vector<MergedMode>& modes, const Identification& preger,
                                          const std::vector<records::CampaignChannel>& channels, const Eigen::VectorXd& scale) {
   Eigen::MatrixXd mac = Eigen::MatrixXd::Zero(std::ssize(modes), std::ssize(preger.modes));  // of the near ones
   for (Index i = 0; i < mac.rows(); ++i) {
     for (Index j = 0; j < mac.cols(); ++j) {
-      const sysid::MergedMode& mode = modes[static_cast<std::size_t>(i)];
-      const sysid::Cluster& other = preger.modes[static_cast<std::size_t>(j)];
+      const MergedMode& mode = modes[static_cast<std::size_t>(i)];
+      const Cluster& other = preger.modes[static_cast<std::size_t>(j)];
       if (std::abs(other.frequency_Hz - mode.frequency_Hz) <= kSameMode * mode.frequency_Hz)
         mac(i, j) = known_mac(mode.shape, other.shape);
     }
@@ -79,7 +79,7 @@ std::vector<MergingCheck> merging_checks(const std::vector<sysid::MergedMode>& m
     check.poser_frequency_Hz = modes[i].frequency_Hz;
     check.poser_damping_ratio = modes[i].damping_ratio;
     if (partner[i] >= 0 && mac(row, partner[i]) > 0.0) {
-      const sysid::Cluster& other = preger.modes[static_cast<std::size_t>(partner[i])];
+      const Cluster& other = preger.modes[static_cast<std::size_t>(partner[i])];
       set(check, other.frequency_Hz, other.damping_ratio, other.shape);
       check.mac = mac(row, partner[i]);
     } else if (mac.row(row).isZero(0.0)) {
@@ -92,15 +92,15 @@ std::vector<MergingCheck> merging_checks(const std::vector<sysid::MergedMode>& m
   return checks;
 }
 
-void take_preger(sysid::MergedMode& mode, const MergingCheck& check) {
+void take_preger(MergedMode& mode, const MergingCheck& check) {
   if (!check.found) return;
   const Eigen::Array<bool, Eigen::Dynamic, 1> unknown = mode.shape.real().array().isNaN();
   const Eigen::VectorXcd zero = Eigen::VectorXcd::Zero(mode.shape.size());
   const Eigen::VectorXcd before = unknown.select(zero.array(), mode.shape.array());
-  const Eigen::VectorXcd after = sysid::normalised_shape(unknown.select(zero.array(), check.shape.array()));
+  const Eigen::VectorXcd after = normalised_shape(unknown.select(zero.array(), check.shape.array()));
   // Either is as real as it can be, but its sign follows its largest entry.
   const Eigen::VectorXcd shift = after - before * std::polar(1.0, std::arg(before.dot(after)));
-  sysid::ModeDeviation& deviation = mode.deviation;
+  ModeDeviation& deviation = mode.deviation;
   deviation.frequency_Hz = std::hypot(deviation.frequency_Hz, check.frequency_Hz - mode.frequency_Hz);
   deviation.damping_ratio = std::hypot(deviation.damping_ratio, check.damping_ratio - mode.damping_ratio);
   for (Index i = 0; i < shift.size(); ++i) {

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "identification/identification.hpp"
-#include "sysid/merge_poser.hpp"
+#include "identification/merge_poser.hpp"
 
 namespace twindeck::identification {
 
@@ -27,14 +27,13 @@ struct MergingCheck {
 /// @param preger    shapes of its modes physical, those of its poles as identified
 /// @param channels  of all setups @param scale  (n_channels) what the records were divided by
 /// @return one a mode
-[[nodiscard]] std::vector<MergingCheck> merging_checks(const std::vector<sysid::MergedMode>& modes,
-                                                       const sysid::Identification& preger,
+[[nodiscard]] std::vector<MergingCheck> merging_checks(const std::vector<MergedMode>& modes, const Identification& preger,
                                                        const std::vector<records::CampaignChannel>& channels,
                                                        const Eigen::VectorXd& scale);
 
 /// Puts PreGER's values in the place of PoSER's, where PreGER has the mode. It gives no deviations of its own: they become the
 /// root of the sum of squares of PoSER's and the difference of both mergings, so that neither value is thought more certain
 /// than the choice between two ways to merge the same records. Channels that PoSER's shape lacks stay NaN.
-void take_preger(sysid::MergedMode& mode, const MergingCheck& check);
+void take_preger(MergedMode& mode, const MergingCheck& check);
 
 }  // namespace twindeck::identification

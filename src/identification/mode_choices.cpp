@@ -22,11 +22,11 @@ constexpr double kSameModeFrequency = 0.02, kSameModeMac = 0.95;
 constexpr double kLeastShapeDeviation = 0.02;  ///< [-] of a unit-norm shape that a person picked
 
 /// The pole of the order nearest to what a choice says.
-std::optional<std::size_t> pole_of(const ModeChoice& choice, const std::vector<sysid::DiagramPole>& diagram) {
+std::optional<std::size_t> pole_of_choice(const ModeChoice& choice, const std::vector<DiagramPole>& diagram) {
   std::optional<std::size_t> best;
   double least = kSamePoleFrequency;
   for (std::size_t i = 0; i < diagram.size(); ++i) {
-    const sysid::Pole& pole = diagram[i].pole;
+    const Pole& pole = diagram[i].pole;
     const double off = std::abs(pole.frequency_Hz / choice.frequency_Hz - 1.0);
     if (pole.order != choice.order || off > least || std::abs(pole.damping_ratio - choice.damping_ratio) > kSamePoleDamping)
       continue;
@@ -37,21 +37,20 @@ std::optional<std::size_t> pole_of(const ModeChoice& choice, const std::vector<s
 }
 
 /// The poles of the mode that a picked pole is one of, no pole of another mode among them.
-std::vector<std::size_t> members_about(const std::vector<sysid::DiagramPole>& diagram, std::size_t picked) {
+std::vector<std::size_t> members_about(const std::vector<DiagramPole>& diagram, std::size_t picked) {
   std::vector<std::size_t> near;
-  const sysid::Pole& own = diagram[picked].pole;
+  const Pole& own = diagram[picked].pole;
   for (std::size_t i = 0; i < diagram.size(); ++i) {
-    const sysid::Pole& pole = diagram[i].pole;
+    const Pole& pole = diagram[i].pole;
     const bool same = std::abs(pole.frequency_Hz / own.frequency_Hz - 1.0) < kSameModeFrequency &&
                       std::norm(pole.shape.dot(own.shape)) > kSameModeMac;
     if (i == picked || (same && diagram[i].mode < 0 && pole.order != own.order)) near.push_back(i);
   }
-  return sysid::one_an_order(diagram, near, picked);
+  return one_an_order(diagram, near, picked);
 }
 
-sysid::ModeDeviation deviation_of(const sysid::Cluster& mode, const std::vector<sysid::DiagramPole>& diagram,
-                                  std::size_t picked) {
-  sysid::ModeDeviation deviation;
+ModeDeviation deviation_of_choice(const Cluster& mode, const std::vector<DiagramPole>& diagram, std::size_t picked) {
+  ModeDeviation deviation;
   const double known = diagram[picked].frequency_std_Hz;
   deviation.frequency_Hz = std::hypot(known, mode.frequency_scatter_Hz);
   deviation.damping_ratio = std::hypot(known / mode.frequency_Hz, mode.damping_ratio_scatter);
@@ -65,9 +64,9 @@ sysid::ModeDeviation deviation_of(const sysid::Cluster& mode, const std::vector<
   return deviation;
 }
 
-void add_mode(sysid::Identification& found, std::size_t picked, const Conditioned& conditioned, const Eigen::VectorXd& scale) {
-  sysid::Cluster mode = sysid::summarise(found.diagram, members_about(found.diagram, picked));
-  sysid::ModeDeviation deviation = deviation_of(mode, found.diagram, picked);
+void add_mode(Identification& found, std::size_t picked, const Conditioned& conditioned, const Eigen::VectorXd& scale) {
+  Cluster mode = summarise(found.diagram, members_about(found.diagram, picked));
+  ModeDeviation deviation = deviation_of_choice(mode, found.diagram, picked);
   mode.shape = physical_shape(mode.shape, conditioned.channels, scale, mode.frequency_Hz, mode.damping_ratio);
   for (const std::size_t i : mode.members) found.diagram[i].mode = static_cast<int>(found.modes.size());
   found.modes.push_back(std::move(mode));
@@ -76,18 +75,18 @@ void add_mode(sysid::Identification& found, std::size_t picked, const Conditione
 
 }  // namespace
 
-void take_choices(sysid::Identification& found, const std::vector<ModeChoice>& choices, const Conditioned& conditioned,
+void take_choices(Identification& found, const std::vector<ModeChoice>& choices, const Conditioned& conditioned,
                   const Eigen::VectorXd& scale) {
   std::vector<bool> stays(found.modes.size(), true);
   std::vector<std::size_t> picked;
   for (const ModeChoice& choice : choices) {
-    const auto pole = choice.setup == conditioned.setup ? pole_of(choice, found.diagram) : std::nullopt;
+    const auto pole = choice.setup == conditioned.setup ? pole_of_choice(choice, found.diagram) : std::nullopt;
     if (!pole) continue;
     const int mode = found.diagram[*pole].mode;
     if (choice.keep && mode < 0) picked.push_back(*pole);
     if (!choice.keep && mode >= 0) stays[static_cast<std::size_t>(mode)] = false;
   }
-  sysid::keep_modes(found, stays);
+  keep_modes(found, stays);
   for (const std::size_t pole : picked) {
     if (found.diagram[pole].mode < 0) add_mode(found, pole, conditioned, scale);
   }
@@ -97,7 +96,7 @@ void require_poles(const std::vector<ModeChoice>& choices, const std::vector<Con
   for (const ModeChoice& choice : choices) {
     const bool has = std::any_of(results.begin(), results.end(), [&](const ConditionResult& result) {
       return std::any_of(result.setups.begin(), result.setups.end(), [&](const SetupResult& setup) {
-        return setup.conditioned.setup == choice.setup && pole_of(choice, setup.found.diagram);
+        return setup.conditioned.setup == choice.setup && pole_of_choice(choice, setup.found.diagram);
       });
     });
     if (has) continue;

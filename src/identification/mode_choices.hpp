@@ -11,7 +11,7 @@ namespace twindeck::identification {
 /// to no mode becomes one, with the poles of other orders near it. Its frequency has the deviation of the pole, its damping
 /// ratio the same relative to the half bandwidth, its shape the scatter over the orders.
 /// @param found  shapes of modes physical, those of poles as identified @param scale  of the channels, see physical_shape
-void take_choices(sysid::Identification& found, const std::vector<ModeChoice>& choices, const Conditioned& conditioned,
+void take_choices(Identification& found, const std::vector<ModeChoice>& choices, const Conditioned& conditioned,
                   const Eigen::VectorXd& scale);
 
 /// @throws InputError  with the line of the file, for a choice that no setup of any condition has a pole for

@@ -14,7 +14,7 @@ namespace {
 constexpr double kApart = 3.0;     ///< standard deviations of the difference of two frequencies
 constexpr double kOneShape = 0.9;  ///< [-] MAC of shapes that are alike
 
-bool are_one(const sysid::MergedMode& low, const sysid::MergedMode& high) {
+bool are_one(const MergedMode& low, const MergedMode& high) {
   const double sigma = std::hypot(low.deviation.frequency_Hz, high.deviation.frequency_Hz);
   return high.frequency_Hz - low.frequency_Hz <= kApart * sigma && known_mac(low.shape, high.shape) >= kOneShape;
 }
@@ -25,7 +25,7 @@ double weighted(double sure, double sigma, double other, double other_sigma) {
   return all > 0.0 ? sure + (other - sure) * sigma * sigma / all : sure;
 }
 
-void fill_shape(sysid::MergedMode& sure, const sysid::MergedMode& other) {
+void fill_shape(MergedMode& sure, const MergedMode& other) {
   std::complex<double> product = 0.0;
   double norm = 0.0;
   for (Index c = 0; c < sure.shape.size(); ++c) {
@@ -42,7 +42,7 @@ void fill_shape(sysid::MergedMode& sure, const sysid::MergedMode& other) {
   }
 }
 
-sysid::MergedMode merged(sysid::MergedMode sure, sysid::MergedMode other) {
+MergedMode merged(MergedMode sure, MergedMode other) {
   if (other.deviation.frequency_Hz < sure.deviation.frequency_Hz) std::swap(sure, other);
   const auto &own = sure.deviation, &its = other.deviation;
   const double f_apart = other.frequency_Hz - sure.frequency_Hz, zeta_apart = other.damping_ratio - sure.damping_ratio;
@@ -64,7 +64,7 @@ std::vector<std::string> merge_modes_that_are_one(ConditionResult& result) {
   std::vector<std::string> lines;
   if (result.channels.size() < 2) return lines;
   for (std::size_t m = 0; m + 1 < result.modes.size();) {
-    sysid::MergedMode &low = result.modes[m], &high = result.modes[m + 1];
+    MergedMode &low = result.modes[m], &high = result.modes[m + 1];
     if (!are_one(low, high)) {
       ++m;
       continue;

@@ -30,8 +30,8 @@ constexpr Kind kDecay{30.0, 12.0, 0.5, true};
 constexpr double kWidestBand = 16.0;
 /// Lines below which nobody tells a peak from drift.
 constexpr Index kFirstLine = 8;
-constexpr long kSegments = 10;         ///< lengths of a segment in the shortest record
-constexpr long kMostRowsOfAll = 1600;  ///< block rows times channels: the larger matrix takes minutes
+constexpr long kShortestSegments = 10;  ///< lengths of a segment in the shortest record
+constexpr long kMostRowsOfAll = 1600;   ///< block rows times channels: the larger matrix takes minutes
 constexpr long kMostRows = 200, kFewestRows = 20;
 constexpr long kSamplesLeft = 1280;  ///< after decimation: twenty block rows of eight blocks, twice
 
@@ -41,9 +41,8 @@ struct Spectrum {
 
 /// Mean over the channels, each in units of its own mean square; segments averaged.
 Spectrum averaged(const std::vector<Samples>& records, double rate_Hz) {
-  Index shortest = records.front().rows();
-  for (const Samples& record : records) shortest = std::min(shortest, record.rows());
-  const signal::WelchOptions options{std::max<Index>(64, shortest / kSegments), 0.5};
+  const Index shortest = shortest_record(records);
+  const signal::WelchOptions options{std::max<Index>(64, shortest / kShortestSegments), 0.5};
   Spectrum spectrum;
   if (options.segment > shortest) return spectrum;
   const Eigen::VectorXd rms = channel_rms(records).cwiseMax(1e-300);
@@ -58,8 +57,7 @@ Spectrum averaged(const std::vector<Samples>& records, double rate_Hz) {
 
 /// Of whole records, no window: a decay has died away at the end.
 Spectrum whole(const std::vector<Samples>& records, double rate_Hz) {
-  Index shortest = records.front().rows();
-  for (const Samples& record : records) shortest = std::min(shortest, record.rows());
+  const Index shortest = shortest_record(records);
   Spectrum spectrum;
   if (shortest < 64) return spectrum;
   const Eigen::VectorXd rms = channel_rms(records).cwiseMax(1e-300);
@@ -114,8 +112,7 @@ Sampling choose(const Spectrum& spectrum, const Kind& kind, const std::vector<Sa
   }
   if (kind.by_reach) chosen.highest_Hz = std::max(chosen.highest_Hz, std::min(reach_of(spectrum), highest));
   const double kept_Hz = config.highest_Hz > 0.0 ? config.highest_Hz : chosen.highest_Hz;
-  Index shortest = records.front().rows();
-  for (const Samples& record : records) shortest = std::min(shortest, record.rows());
+  const Index shortest = shortest_record(records);
   if (config.decimation == 0) {
     const auto most = static_cast<long>(rate_Hz / (kind.rate * kept_Hz));
     chosen.decimation = std::clamp(most, 1L, std::max(1L, static_cast<long>(shortest) / kSamplesLeft));

@@ -18,8 +18,8 @@ const StaySettings* settings_of(const Conditioned& conditioned, const Identifica
   return at == config.stays.end() ? nullptr : &*at;
 }
 
-sysid::StaySection section_of(const StaySettings* settings) {
-  sysid::StaySection section;
+StaySection section_of(const StaySettings* settings) {
+  StaySection section;
   if (settings == nullptr) return section;
   section.length_m = settings->length_m;
   if (settings->mass_kg_m > 0.0) section.bending_per_mass_m4_s2 = settings->bending_stiffness_N_m2 / settings->mass_kg_m;
@@ -29,22 +29,21 @@ sysid::StaySection section_of(const StaySettings* settings) {
 }
 
 /// Fit of the modes of a record. Where fewer harmonics are asked for than there are, of these alone.
-sysid::StayFit fit_of(const sysid::Identification& found, const sysid::StaySection& section,
-                      const IdentificationSettings& config) {
-  std::vector<sysid::Harmonic> frequencies;
+StayFit stay_fit_of(const Identification& found, const StaySection& section, const IdentificationSettings& config) {
+  std::vector<Harmonic> frequencies;
   for (std::size_t m = 0; m < found.modes.size(); ++m) {
     const double f = found.modes[m].frequency_Hz;
     frequencies.push_back({0, f, std::max(found.deviations[m].frequency_Hz, 1e-9 * f)});
   }
-  sysid::StayFit fit = sysid::fit_stay(frequencies, section, config.stay_level, config.stay_lowest_Hz, config.stay_highest_Hz);
-  sysid::Numbering kept = fit.numbering;
+  StayFit fit = fit_stay(frequencies, section, config.stay_level, config.stay_lowest_Hz, config.stay_highest_Hz);
+  Numbering kept = fit.numbering;
   while (!kept.harmonics.empty() && kept.harmonics.back().number > config.stay_harmonics) {
     kept.harmonics.pop_back();
     kept.positions.pop_back();
   }
   if (kept.harmonics.size() == fit.numbering.harmonics.size()) return fit;
-  sysid::StayFit fewer;
-  if (kept.harmonics.size() >= 2) fewer = sysid::fit_numbered(kept.harmonics, section, config.stay_level);
+  StayFit fewer;
+  if (kept.harmonics.size() >= 2) fewer = fit_numbered(kept.harmonics, section, config.stay_level);
   fewer.numbering = kept;
   fewer.others = fit.others;
   return fewer;
@@ -77,17 +76,17 @@ std::vector<StayResult> identify_stays(const std::vector<Conditioned>& records, 
     CarriedLimits carried = carried_by(conditioned, limits);
     limits = std::move(carried.config);
     result.note = std::move(carried.note);
-    const sysid::Identification found = identify_modes(conditioned, limits);
+    const Identification found = identify_modes(conditioned, limits);
     const StaySettings* settings = settings_of(conditioned, config);
     result.stay = settings != nullptr ? settings->name : conditioned.setup;
     result.condition = conditioned.condition;
     result.length_m = settings != nullptr ? settings->length_m : 0.0;
     result.quality = conditioned.quality;
-    result.fit = fit_of(found, section_of(settings), config);
-    const sysid::Numbering& numbering = result.fit.numbering;
+    result.fit = stay_fit_of(found, section_of(settings), config);
+    const Numbering& numbering = result.fit.numbering;
     for (std::size_t i = 0; i < numbering.harmonics.size(); ++i) {
       const std::size_t at = numbering.positions[i];
-      const sysid::Harmonic& h = numbering.harmonics[i];
+      const Harmonic& h = numbering.harmonics[i];
       result.modes.push_back(
           {h.number, h.frequency_Hz, h.deviation_Hz, found.modes[at].damping_ratio, found.deviations[at].damping_ratio});
     }

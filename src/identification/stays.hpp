@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "identification/identification.hpp"
-#include "sysid/tension.hpp"
+#include "identification/tension.hpp"
 
 namespace twindeck::identification {
 
@@ -20,14 +20,15 @@ struct StayResult {
   };
   std::vector<Mode> modes;  ///< ascending in harmonic
   bool fitted = false;      ///< two harmonics or more
-  sysid::StayFit fit;       ///< without tension where the length is not known: c and lambda² hold all the same
+  StayFit fit;              ///< without tension where the length is not known: c and lambda² hold all the same
 };
 
 /// The settings that records of stays are read and identified with.
 [[nodiscard]] IdentificationSettings stay_settings(const IdentificationSettings& config);
 
-/// Identifies records of kind stay, numbers their modes as harmonics and fits a tensioned beam to them (sysid/tension.hpp). A
-/// stay is named as in [[stay_length]] by its setup, point or channel; otherwise by its setup. @param records  of one stay each
+/// Identifies records of kind stay, numbers their modes as harmonics and fits a tensioned beam to them
+/// (identification/tension.hpp). A stay is named as in [[stay_length]] by its setup, point or channel; otherwise by its setup.
+/// @param records  of one stay each
 [[nodiscard]] std::vector<StayResult> identify_stays(const std::vector<Conditioned>& records,
                                                      const IdentificationSettings& config);
 

@@ -112,12 +112,6 @@ Likeness likeness_of(const Eigen::VectorXd& frequency_x, const Eigen::MatrixXcd&
   return out;
 }
 
-std::vector<ModePair> pair_by_mac(const Eigen::VectorXd& frequency_x, const Eigen::MatrixXcd& phi_x,
-                                  const Eigen::VectorXd& frequency_n, const Eigen::MatrixXcd& phi_n,
-                                  const PairingOptions& options) {
-  return pair_by_likeness(frequency_x, frequency_n, likeness_of(frequency_x, phi_x, frequency_n, phi_n, options), options);
-}
-
 std::vector<ModePair> pair_by_likeness(const Eigen::VectorXd& frequency_x, const Eigen::VectorXd& frequency_n,
                                        const Likeness& like, const PairingOptions& options) {
   const Eigen::Array<bool, Eigen::Dynamic, Eigen::Dynamic> admissible =

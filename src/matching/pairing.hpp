@@ -33,29 +33,24 @@ struct PairingOptions {
 struct Likeness {
   Eigen::MatrixXd value;  ///< [-] (n_X × n_N) MAC, or the subspace MAC where `clustered`; NaN where no shape is known
   Eigen::MatrixXd gain;   ///< [-] (n_X × n_N) what a pair adds to the sum that the pairing maximises
-  Eigen::Array<bool, Eigen::Dynamic, Eigen::Dynamic> clustered;  ///< (n_X × n_N) see pair_by_mac
+  Eigen::Array<bool, Eigen::Dynamic, Eigen::Dynamic> clustered;  ///< (n_X × n_N) see pair_by_likeness
 };
 
-/// @param frequency_x, frequency_n, phi_x, phi_n  as in pair_by_mac
+/// Close numerical modes can rotate into each other. An experimental shape that is like none of them by itself (`cluster_mac`)
+/// may lie within the span of such a cluster. Its pairs with the members are then `clustered`, and get the subspace MAC,
+/// |P phi_x|²/|phi_x|², P the projection on that span. A shape that is like one member keeps its own MACs. A mode without a
+/// shape (no sensors, or measured at one of them: has_a_shape) has a gain by its frequency alone, and its MAC is NaN.
+/// @param frequency_x, frequency_n [Hz]
+/// @param phi_x (n_sensors × n_X), NaN where a mode was not measured; phi_n (n_sensors × n_N)
 [[nodiscard]] Likeness likeness_of(const Eigen::VectorXd& frequency_x, const Eigen::MatrixXcd& phi_x,
                                    const Eigen::VectorXd& frequency_n, const Eigen::MatrixXcd& phi_n,
                                    const PairingOptions& options);
 
 /// One-to-one pairing that maximises the sum of MAC over admissible pairs (Hungarian assignment, not greedy). A mode may stay
-/// unpaired. Close numerical modes can rotate into each other. An experimental shape that is like none of them by itself
-/// (`cluster_mac`) may lie within the span of such a cluster. Its pairs with the members are then marked `clustered`, and get
-/// the subspace MAC, |P phi_x|²/|phi_x|², P the projection on that span. A shape that is like one member keeps its own MACs.
-/// A mode without a shape (no sensors, or measured at one of them: has_a_shape) is paired by its frequency, and its MAC is NaN.
-/// Where shapes decide nothing, the nearer frequency does.
+/// unpaired. Where shapes decide nothing, the nearer frequency does.
+/// @param frequency_x, frequency_n [Hz] @param likeness  of these modes
 /// @return pairs in the order of the experimental modes
-/// @param frequency_x, frequency_n [Hz]
-/// @param phi_x (n_sensors × n_X), NaN where a mode was not measured; phi_n (n_sensors × n_N)
 /// Reference: Kuhn (1955), Naval Research Logistics Quarterly 2, 83-97.
-[[nodiscard]] std::vector<ModePair> pair_by_mac(const Eigen::VectorXd& frequency_x, const Eigen::MatrixXcd& phi_x,
-                                                const Eigen::VectorXd& frequency_n, const Eigen::MatrixXcd& phi_n,
-                                                const PairingOptions& options = {});
-
-/// The same from a likeness that is known. @param likeness  of these modes
 [[nodiscard]] std::vector<ModePair> pair_by_likeness(const Eigen::VectorXd& frequency_x, const Eigen::VectorXd& frequency_n,
                                                      const Likeness& likeness, const PairingOptions& options);
 

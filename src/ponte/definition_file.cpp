@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <set>
 
 #include "core/units.hpp"
@@ -85,8 +86,7 @@ DefinitionFile DefinitionFile::load(const std::filesystem::path& file) {
 }
 
 void DefinitionFile::fail(const std::string& path, const std::string& problem, const std::string& mend) const {
-  const auto found = values_.find(path);
-  throw InputError({file_, found == values_.end() ? 0 : found->second.line, path}, problem, mend);
+  throw InputError({file_, line_of(path), path}, problem, mend);
 }
 
 std::vector<std::string> DefinitionFile::paths_below(const std::string& table) const {
@@ -172,6 +172,13 @@ std::vector<double> DefinitionFile::numbers(const std::string& path, const std::
   return out;
 }
 
+std::map<std::string, double> DefinitionFile::numbers_below(const std::string& table) {
+  constexpr double any = std::numeric_limits<double>::infinity();
+  std::map<std::string, double> out;
+  for (const std::string& path : paths_below(table)) out[path.substr(table.size() + 1)] = number(path, "", {-any, any});
+  return out;
+}
+
 bool DefinitionFile::has(const std::string& path) const {
   return values_.contains(path) ||
          std::any_of(values_.begin(), values_.end(), [&](const auto& entry) { return below(entry.first, path); });
@@ -239,7 +246,8 @@ void DefinitionFile::offer_number(const std::string& path, double value) {
 }
 
 long DefinitionFile::line_of(const std::string& path) const {
-  const auto found = values_.find(path);
+  const auto found = std::find_if(values_.begin(), values_.end(),
+                                  [&](const auto& entry) { return entry.first == path || below(entry.first, path); });
   return found == values_.end() ? 0 : found->second.line;
 }
 

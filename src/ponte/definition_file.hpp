@@ -33,6 +33,9 @@ class DefinitionFile {
   [[nodiscard]] std::vector<std::string> texts(const std::string& path);
   [[nodiscard]] std::vector<double> numbers(const std::string& path, const std::string& unit, Range range);
 
+  /// The numbers below a table by their paths in it: "deck.foot.radius" where `table` has that key.
+  [[nodiscard]] std::map<std::string, double> numbers_below(const std::string& table);
+
   /// True if the path is a value, a list or a table.
   [[nodiscard]] bool has(const std::string& path) const;
   /// Names below a table, in alphabetical order.
@@ -48,9 +51,9 @@ class DefinitionFile {
   /// Puts a number [SI] in the place of a value that is there.
   /// @throws InputError for a path that is not there, naming the nearest
   void set_number(const std::string& path, double value);
-  /// Line of a value, 0 if it is not there.
   /// A number for a key that the file leaves out; one that is there stays.
   void offer_number(const std::string& path, double value);
+  /// Line of a value, or of a list's or table's first one by name; 0 if it is not there.
   [[nodiscard]] long line_of(const std::string& path) const;
   /// @throws InputError for the first value that nobody asked for, naming the nearest known path
   void refuse_unknown() const;

@@ -7,11 +7,11 @@
 #include "core/error.hpp"
 #include "core/parallel.hpp"
 #include "core/random.hpp"
+#include "identification/ssi_cov.hpp"
+#include "identification/stabilisation.hpp"
 #include "signal/condition.hpp"
 #include "signal/correlation.hpp"
 #include "signal/welch.hpp"
-#include "sysid/ssi_cov.hpp"
-#include "sysid/stabilisation.hpp"
 #include "transient/trapezoidal.hpp"
 
 namespace twindeck::sensors {
@@ -53,19 +53,19 @@ BlindTest identify_frames(const LayoutSettings& config, const ScoredSetup& setup
   std::vector<Index> references(static_cast<std::size_t>(data.cols()));
   for (std::size_t c = 0; c < references.size(); ++c) references[c] = static_cast<Index>(c);
   const Index length = data.rows() / config.frames;
-  const sysid::PoleLimits limits{0.0, 0.8 * 0.5 * rate_Hz, 0.2};
+  const identification::PoleLimits limits{0.0, 0.8 * 0.5 * rate_Hz, 0.2};
   for (long frame = 0; frame < config.frames; ++frame) {
     const MatrixXd part = signal::detrended(data.middleRows(frame * length, length));
     const std::vector<MatrixXd> lags = signal::correlations(part, references, 2 * config.block_rows, 1).mean();
-    const auto poles =
-        sysid::poles_of_orders(sysid::ssi_cov(lags, config.block_rows, data.cols(), config.maximum_order), orders, rate_Hz);
-    for (sysid::DiagramPole pole : sysid::stabilisation_diagram(poles, config.criteria, limits)) {
+    const auto poles = identification::poles_of_orders(
+        identification::ssi_cov(lags, config.block_rows, data.cols(), config.maximum_order), orders, rate_Hz);
+    for (identification::DiagramPole pole : identification::stabilisation_diagram(poles, config.criteria, limits)) {
       pole.pole.order += static_cast<int>(frame) * kFrameStride;
       test.diagram.push_back(std::move(pole));
     }
     for (const int order : orders) all_orders.push_back(order + static_cast<int>(frame) * kFrameStride);
   }
-  test.modes = sysid::identify_clusters(test.diagram, all_orders, config.cleaning);
+  test.modes = identification::identify_clusters(test.diagram, all_orders, config.cleaning);
   return test;
 }
 

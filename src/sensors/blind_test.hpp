@@ -5,17 +5,17 @@
 #include <string>
 #include <vector>
 
+#include "identification/clustering.hpp"
 #include "sensors/layout_settings.hpp"
 #include "sensors/setup_scores.hpp"
-#include "sysid/clustering.hpp"
 
 namespace twindeck::sensors {
 
 /// One setup of the blind test: identified as if nothing were known.
 struct BlindTest {
   std::string setup;
-  std::vector<sysid::DiagramPole> diagram;  ///< all frames; order = frame · 1000 + order
-  std::vector<sysid::Cluster> modes;
+  std::vector<identification::DiagramPole> diagram;  ///< all frames; order = frame · 1000 + order
+  std::vector<identification::Cluster> modes;
 };
 struct BlindTestResult {
   std::vector<BlindTest> tests;

@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "sysid/clustering.hpp"
+#include "identification/clustering.hpp"
 
 namespace twindeck::sensors {
 
@@ -16,8 +16,8 @@ struct LayoutSettings {
   double duration_s = 8000.0, rate_Hz = 64.0, damping_ratio = 0.01, warm_up_s = 200.0;
   long downsample = 8, frames = 10, minimum_order = 10, maximum_order = 20, order_step = 2, block_rows = 30,
        welch_segment = 1024;
-  sysid::StabilisationCriteria criteria;
-  sysid::CleaningRule cleaning{0.95, 0.02, 5.0, 0.0};
+  identification::StabilisationCriteria criteria;
+  identification::CleaningRule cleaning{0.95, 0.02, 5.0, 0.0};
 };
 
 }  // namespace twindeck::sensors

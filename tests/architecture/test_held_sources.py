@@ -11,7 +11,7 @@ import tomllib
 import unittest
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
-NO_LIBRARIES = ("steps", "tools", "precompiled")
+NO_LIBRARIES = ("steps", "precompiled")
 INCLUDE = re.compile(r'^#include "([^"]+)"', re.M)
 
 

@@ -37,7 +37,7 @@ class Faults(unittest.TestCase):
         })
 
     def test_in_the_sources_every_fault_changes_code(self):
-        files = run.sources(ROOT, ("fe", "modal", "sysid"))
+        files = run.sources(ROOT, ("fe", "modal", "identification"))
         by_kind = faults_by_kind(ROOT, files)
         for kind in KINDS:
             with self.subTest(kind):

@@ -3,7 +3,8 @@
 ///
 ///     bench_growth model deck|building DOFS FOLDER     K and M as arrays; prints size and time of the assembly
 ///     bench_growth modes FOLDER                        15 modes of K and M
-///     bench_growth record FILE.npy CHANNELS SAMPLES    the structure of sysid_record.hpp, single precision, written in blocks
+///     bench_growth record FILE.npy CHANNELS SAMPLES    the structure of identification_record.hpp, single precision, written
+///     in blocks
 ///
 /// prints `name value` lines, as table.py reads them.
 #include <Eigen/Dense>
@@ -19,7 +20,7 @@
 #include <vector>
 
 #include "bench/cost.hpp"
-#include "bench/sysid_record.hpp"
+#include "bench/identification_record.hpp"
 #include "fe/structure.hpp"
 #include "io/npy.hpp"
 #include "linalg/cholesky.hpp"

@@ -10,7 +10,7 @@ import sys
 
 import modes
 import reliability
-import sysid
+import identification
 import table
 import wind_field
 
@@ -20,7 +20,7 @@ def main():
     runs = int(sys.argv[3]) if len(sys.argv) > 3 else 5
     out.mkdir(parents=True, exist_ok=True)
     everything = []
-    for name, part in (("modes", modes), ("identification", sysid), ("wind", wind_field), ("reliability", reliability)):
+    for name, part in (("modes", modes), ("identification", identification), ("wind", wind_field), ("reliability", reliability)):
         print(f"bench: {name} …", file=sys.stderr, flush=True)
         rows = part.rows(binaries, runs)
         table.write(rows, out / f"{name}.csv")

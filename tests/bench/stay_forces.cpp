@@ -9,7 +9,7 @@
 
 #include "blind/exact_intervals.hpp"
 #include "core/random.hpp"
-#include "sysid/tension.hpp"
+#include "identification/tension.hpp"
 
 using namespace twindeck;
 
@@ -31,26 +31,27 @@ class Draws {
 struct Stay {
   double c_Hz = 0.0;
   std::size_t harmonics = 0;
-  std::vector<sysid::Harmonic> found;
+  std::vector<identification::Harmonic> found;
 };
 
 Stay drawn(Draws& draw) {
-  const sysid::TensionedBeam beam{draw.logarithmic(6.0, 400.0), draw.uniform(0.0, 30.0),
-                                  draw.uniform(0.0, 1.0) < 0.5 ? 0.0 : 1.0};
+  const identification::TensionedBeam beam{draw.logarithmic(6.0, 400.0), draw.uniform(0.0, 30.0),
+                                           draw.uniform(0.0, 1.0) < 0.5 ? 0.0 : 1.0};
   const int most = static_cast<int>(draw.uniform(3.0, 11.0));
   const int missing = most > 3 && draw.uniform(0.0, 1.0) < 0.4 ? static_cast<int>(draw.uniform(1.0, most)) : 0;
   const double relative = draw.logarithmic(2e-4, 1e-3);
   Stay stay;
   stay.c_Hz = draw.logarithmic(0.5, 5.0);
   for (int n = 1; n <= most; ++n) {
-    const double f = stay.c_Hz * sysid::frequency_ratio(n, beam);
+    const double f = stay.c_Hz * identification::frequency_ratio(n, beam);
     if (n != missing) stay.found.push_back({0, f * (1.0 + relative * draw.normal()), relative * f});
   }
   stay.harmonics = stay.found.size();
   const double foreign = stay.found.back().frequency_Hz * draw.uniform(0.2, 1.0);
   if (draw.uniform(0.0, 1.0) < 0.3) stay.found.push_back({0, foreign, relative * foreign});
-  std::sort(stay.found.begin(), stay.found.end(),
-            [](const sysid::Harmonic& a, const sysid::Harmonic& b) { return a.frequency_Hz < b.frequency_Hz; });
+  std::sort(stay.found.begin(), stay.found.end(), [](const identification::Harmonic& a, const identification::Harmonic& b) {
+    return a.frequency_Hz < b.frequency_Hz;
+  });
   return stay;
 }
 
@@ -73,7 +74,7 @@ int main(int argc, char** argv) {
   for (int i = 0; i < stays; ++i) {
     Draws draw(seed, static_cast<std::uint64_t>(i));
     const Stay stay = drawn(draw);
-    const sysid::StayFit fit = sysid::fit_stay(stay.found, {kLength_m}, kLevel);
+    const identification::StayFit fit = identification::fit_stay(stay.found, {kLength_m}, kLevel);
     const double force = std::pow(2.0 * kLength_m * stay.c_Hz, 2);
     const bool holds = fit.tension_per_mass.low <= force && force <= fit.tension_per_mass.high;
     all.push_back((fit.tension_per_mass.high - fit.tension_per_mass.low) / force);

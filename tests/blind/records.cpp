@@ -44,15 +44,15 @@ Identified identify(const Bench& bench, const Eigen::MatrixXd& record, double ra
   for (const Index reference : {0, 1, 4, 5, 8, 9, 12, 13}) conditioned.references.push_back(reference);
   conditioned.records = {record};
   conditioned.rate_Hz = rate_Hz;
-  const sysid::Identification found = identification::identify_modes(conditioned, config);
+  const identification::Identification found = identification::identify_modes(conditioned, config);
   Identified out;
   const auto n = static_cast<Index>(found.modes.size());
   out.hertz.resize(n);
   out.shapes.resize(record.cols(), n);
   for (Index m = 0; m < n; ++m) {
     const auto k = static_cast<std::size_t>(m);
-    const sysid::Cluster& mode = found.modes[k];
-    const sysid::ModeDeviation& deviation = found.deviations[k];
+    const identification::Cluster& mode = found.modes[k];
+    const identification::ModeDeviation& deviation = found.deviations[k];
     out.hertz[m] = mode.frequency_Hz;
     out.damping.push_back(mode.damping_ratio);
     out.hertz_std.push_back(deviation.frequency_Hz);

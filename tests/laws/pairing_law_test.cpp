@@ -6,12 +6,13 @@
 
 #include "matching/pairing.hpp"
 #include "modal/mac.hpp"
+#include "pair_by_mac.hpp"
 
 /// Properties of MAC and pairing over random complex shapes.
 namespace {
 
+using twindeck::pair_by_mac;
 using twindeck::matching::ModePair;
-using twindeck::matching::pair_by_mac;
 using twindeck::modal::mac;
 
 struct Shapes {

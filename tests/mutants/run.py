@@ -64,7 +64,7 @@ def tests_of(library, uses, known):
     higher = users(uses, library)
     names = ["test_" + name.replace("/", "_") for name in (library, *higher)]
     of_diagnosis = library.split("/")[0] == "diagnosis"  # the smoke chain ends before the diagnosis
-    whole = [RECORDS] if "identification" in higher else []
+    whole = [RECORDS] if "identification" in (library, *higher) else []
     whole += [] if of_diagnosis else [SMOKE]
     if of_diagnosis or "diagnosis" in higher:
         whole += [CHAIN_AND_GIRDER, DIAGNOSED_SMOKE, BLIND]

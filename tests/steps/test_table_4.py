@@ -248,7 +248,7 @@ def write(name, header, of_seed, part):
 def stamp_of_what_decides():
     """Of the sources and settings that campaign, identification and score are made by."""
     content = hashlib.sha256()
-    folders = ("src/sysid", "src/signal", "src/records", "src/identification", "src/virtual_bridge", "src/steps/identification",
+    folders = ("src/signal", "src/records", "src/identification", "src/ponte/virtual_bridge", "src/steps/identification",
                "src/steps/campaign")
     files = [f for folder in folders for f in sorted((ROOT / folder).glob("*.?pp"))]
     for file in [*files, STUDY / "s0_campaign.toml", STUDY / "s3_identification.toml", pathlib.Path(campaign_score.__file__)]:

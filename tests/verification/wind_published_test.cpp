@@ -10,7 +10,7 @@
 #include <memory>
 
 #include "aero/derivative_table.hpp"
-#include "aero_io/aero_data.hpp"
+#include "aero/files/aero_data.hpp"
 #include "io/csv.hpp"
 #include "known_derivatives.hpp"
 #include "verification_table.hpp"
@@ -101,7 +101,7 @@ TEST(WindPublished, IabseFlatPlate) {
 TEST(WindPublished, StorebaeltSectionWith18Derivatives) {
   const double m = 22740, J = 2.47e6;
   const auto derivatives = std::make_shared<aero::DerivativeTable>(
-      aero_io::read_flutter_derivatives(data("storebaelt_zasso.csv"), aero::OutOfRange::hold, aero::OutOfRange::hold));
+      aero::read_flutter_derivatives(data("storebaelt_zasso.csv"), aero::OutOfRange::hold, aero::OutOfRange::hold));
   const auto system = section_model(structure({0.052, 0.1, 0.278}, 0.003), 31, 1.22, derivatives,
                                     {{1 / std::sqrt(m), 0, 0}, {0, 1 / std::sqrt(m), 0}, {0, 0, 1 / std::sqrt(J)}});
   const auto branches = follow_all(system, speeds(1, 76, 1));

@@ -8,7 +8,7 @@
 #include <memory>
 
 #include "aero/derivative_table.hpp"
-#include "aero_io/aero_data.hpp"
+#include "aero/files/aero_data.hpp"
 #include "core/error.hpp"
 #include "io/csv.hpp"
 #include "known_derivatives.hpp"
@@ -58,8 +58,8 @@ aero::AeroelasticSystem yawed_strips(const std::vector<double>& yaw_rad, const a
 }
 
 TEST(WindYaw, CosineRuleOnAStraightDeckIsExact) {
-  const auto table = std::make_shared<aero::DerivativeTable>(aero_io::read_flutter_derivatives(
-      std::filesystem::path(TWINDECK_SOURCE_DIR) / "data/ponte_del_mare/aero/foot_flutter.csv"));
+  const auto table = std::make_shared<aero::DerivativeTable>(
+      aero::read_flutter_derivatives(std::filesystem::path(TWINDECK_SOURCE_DIR) / "data/ponte_del_mare/aero/foot_flutter.csv"));
   const auto v = speeds(8, 40, 1);
   const double normal = critical_speed(yawed_strips({0, 0, 0}, aero::published_yaw_rule("A"), table), v);
   for (const double yaw : {10 * degree, 30 * degree, -50 * degree}) {
@@ -131,9 +131,9 @@ aero::AeroelasticSystem stand_in(const aero::YawRule& rule) {
   std::vector<aero::SectionAero> sections;
   for (const std::string deck : {"foot", "cycle"}) {
     const std::filesystem::path folder = std::filesystem::path(TWINDECK_SOURCE_DIR) / "data/ponte_del_mare/aero";
-    sections.push_back({deck, deck == "foot" ? 4.5 : 5.0, aero_io::read_polar(folder / (deck + "_polar.csv")),
+    sections.push_back({deck, deck == "foot" ? 4.5 : 5.0, aero::read_polar(folder / (deck + "_polar.csv")),
                         std::make_shared<aero::DerivativeTable>(
-                            aero_io::read_flutter_derivatives(folder / (deck + "_flutter.csv"), aero::OutOfRange::hold))});
+                            aero::read_flutter_derivatives(folder / (deck + "_flutter.csv"), aero::OutOfRange::hold))});
   }
   std::vector<aero::Strip> strips;
   std::vector<aero::StripMotion> motions;

@@ -23,7 +23,7 @@ std::function<io::FieldTable()> appending(std::vector<T>& list, std::function<vo
 
 constexpr std::size_t kMost = 256;
 
-void bind_condition(io::FieldTable& t, virtual_bridge::ConditionSettings& c) {
+void bind_condition(io::FieldTable& t, ponte::ConditionSettings& c) {
   t.path_name("name", c.name, "condition", "name, as records refer to it", true)
       .boolean("dampers", c.dampers, "whether the dampers are fitted")
       .number("temperature", c.temperature_C, "degC", {-30.0, 60.0}, "of the structure")
@@ -35,7 +35,7 @@ void bind_condition(io::FieldTable& t, virtual_bridge::ConditionSettings& c) {
       .number("force.mast", c.force_mast, "", io::non_negative(), "N/sqrt(Hz), the same on the head of the mast");
 }
 
-void bind_record(io::FieldTable& t, virtual_bridge::RecordSettings& r) {
+void bind_record(io::FieldTable& t, ponte::RecordSettings& r) {
   t.path_name("setup", r.setup, "setup", "setup of the layout file", true)
       .choice("kind", r.kind, {"ambient", "free_decay", "wind"},
               "ambient, the decay after a hung mass is let go, or a wind event")
@@ -47,7 +47,7 @@ void bind_record(io::FieldTable& t, virtual_bridge::RecordSettings& r) {
       .number("direction_deg", r.direction_deg, "", {-360.0, 360.0}, "wind: where it blows to, degrees anticlockwise from +X");
 }
 
-void bind_stay(io::FieldTable& t, virtual_bridge::StayTest& s) {
+void bind_stay(io::FieldTable& t, ponte::StayTest& s) {
   t.path_name("stay", s.stay, "stay", "name of the stay", true)
       .path_name("condition", s.condition, "condition", "condition of the record", true)
       .number("pull", s.pull_N, "N", io::positive(), "T", true)
@@ -85,9 +85,9 @@ io::FieldTable CampaignConfig::fields() {
       .number("damping.stays", stay_damping, "", {0.0, 0.2, true}, "of stays; a mode gets a mean by shares of kinetic energy")
       .number("damping.corrections", correction_damping, "", {0.0, 1.0, true}, "of the static corrections")
       .tables("mode",
-              appending<virtual_bridge::NamedMode>(
+              appending<ponte::NamedMode>(
                   named,
-                  [](io::FieldTable& t, virtual_bridge::NamedMode& m) {
+                  [](io::FieldTable& t, ponte::NamedMode& m) {
                     t.text("name", m.name, "as in the paper's Table 4", true)
                         .number("frequency", m.frequency_Hz, "Hz", io::positive(), "undamped", true)
                         .number("damping", m.damping_ratio, "", {0.0, 0.2, true}, "imposed without dampers", true)
@@ -97,28 +97,28 @@ io::FieldTable CampaignConfig::fields() {
                   }),
               "a named mode", "name")
       .tables("temperature_effect",
-              appending<virtual_bridge::TemperatureEffect>(
-                  temperature,
-                  [](io::FieldTable& t, virtual_bridge::TemperatureEffect& e) {
-                    t.text("parameter", e.parameter, "parameter of the definition", true)
-                        .number("per_K", e.per_K, "", {-0.1, 0.1}, "relative change per kelvin", true);
-                  }),
+              appending<ponte::TemperatureEffect>(temperature,
+                                                  [](io::FieldTable& t, ponte::TemperatureEffect& e) {
+                                                    t.text("parameter", e.parameter, "parameter of the definition", true)
+                                                        .number("per_K", e.per_K, "", {-0.1, 0.1}, "relative change per kelvin",
+                                                                true);
+                                                  }),
               "what the temperature changes", "parameter")
       .tables("damper",
-              appending<virtual_bridge::DamperSettings>(
-                  dampers,
-                  [](io::FieldTable& t, virtual_bridge::DamperSettings& d) {
-                    t.text("type", d.type, "type as in the definition", true)
-                        .number("mount_stiffness", d.mount_stiffness_N_m, "N/m", io::non_negative(),
-                                "of the anchorage; 0: the damper's own spring")
-                        .number("mount_loss_factor", d.mount_loss_factor, "", {0.0, 2.0}, "loss factor of the mount at 1 Hz")
-                        .number("friction", d.friction_N, "N", io::non_negative(),
-                                "force below which the dashpot stands still");
-                  }),
+              appending<ponte::DamperSettings>(dampers,
+                                               [](io::FieldTable& t, ponte::DamperSettings& d) {
+                                                 t.text("type", d.type, "type as in the definition", true)
+                                                     .number("mount_stiffness", d.mount_stiffness_N_m, "N/m",
+                                                             io::non_negative(), "of the anchorage; 0: the damper's own spring")
+                                                     .number("mount_loss_factor", d.mount_loss_factor, "", {0.0, 2.0},
+                                                             "loss factor of the mount at 1 Hz")
+                                                     .number("friction", d.friction_N, "N", io::non_negative(),
+                                                             "force below which the dashpot stands still");
+                                               }),
               "what the definition does not say about a type of damper", "type")
-      .tables("condition", appending<virtual_bridge::ConditionSettings>(conditions, bind_condition), "a condition", "name")
-      .tables("record", appending<virtual_bridge::RecordSettings>(records, bind_record), "a record")
-      .tables("stay_test", appending<virtual_bridge::StayTest>(stays, bind_stay), "a test of a stay by an accelerometer on it")
+      .tables("condition", appending<ponte::ConditionSettings>(conditions, bind_condition), "a condition", "name")
+      .tables("record", appending<ponte::RecordSettings>(records, bind_record), "a record")
+      .tables("stay_test", appending<ponte::StayTest>(stays, bind_stay), "a test of a stay by an accelerometer on it")
       .number("stay.duration", stay_duration_s, "s", {0.0, io::longest_record_s, true}, "length of a stay's record")
       .number("stay.force", stay_force, "", io::positive(), "N/sqrt(Hz), white force on each node of the stay")
       .number("stay.sensor", stay_sensor, "", {0.01, 0.5}, "place of the accelerometer over the stay's length")

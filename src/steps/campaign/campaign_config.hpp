@@ -1,12 +1,12 @@
 #pragma once
 
 #include "io/config.hpp"
-#include "virtual_bridge/campaign_settings.hpp"
+#include "ponte/virtual_bridge/campaign_settings.hpp"
 
 namespace twindeck::steps {
 
 /// Configuration of s0_campaign.
-struct CampaignConfig : virtual_bridge::CampaignSettings {
+struct CampaignConfig : ponte::CampaignSettings {
   [[nodiscard]] io::FieldTable fields();
 };
 

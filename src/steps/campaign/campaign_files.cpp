@@ -15,12 +15,12 @@ using Eigen::Index;
 namespace {
 
 /// Setups that records of the decks use, in the order of the layout.
-std::vector<std::string> used_setups(const virtual_bridge::CampaignSettings& settings,
+std::vector<std::string> used_setups(const ponte::CampaignSettings& settings,
                                      const std::vector<sensors::LayoutChannel>& layout) {
   std::vector<std::string> used;
   for (const std::string& name : sensors::setup_names(layout)) {
     if (std::any_of(settings.records.begin(), settings.records.end(),
-                    [&](const virtual_bridge::RecordSettings& r) { return r.setup == name; }))
+                    [&](const ponte::RecordSettings& r) { return r.setup == name; }))
       used.push_back(name);
   }
   return used;
@@ -41,8 +41,8 @@ std::set<std::string> references(const std::vector<sensors::LayoutChannel>& layo
   return out;
 }
 
-void write_channels(const virtual_bridge::CampaignSettings& settings, const std::vector<sensors::LayoutChannel>& layout,
-                    const std::vector<virtual_bridge::StayRecord>& stays, const fs::path& file) {
+void write_channels(const ponte::CampaignSettings& settings, const std::vector<sensors::LayoutChannel>& layout,
+                    const std::vector<ponte::StayRecord>& stays, const fs::path& file) {
   io::CsvWriter csv(
       {"channel", "point", "x_m", "y_m", "z_m", "dx", "dy", "dz", "quantity", "unit", "gain", "reference", "role"});
   const std::vector<std::string> used = used_setups(settings, layout);
@@ -69,7 +69,7 @@ std::string quoted(const std::vector<std::string>& names) {
 
 }  // namespace
 
-std::vector<RecordFile> record_files(const virtual_bridge::CampaignSettings& settings,
+std::vector<RecordFile> record_files(const ponte::CampaignSettings& settings,
                                      const std::vector<sensors::LayoutChannel>& layout) {
   std::vector<RecordFile> files;
   std::map<std::string, int> count;
@@ -78,18 +78,18 @@ std::vector<RecordFile> record_files(const virtual_bridge::CampaignSettings& set
     const std::string stem = fmt::format("records/{}/{}_{}", setup, condition, kind);
     files.push_back({setup, kind, condition, fmt::format("{}_{}.npy", stem, ++count[stem]), std::move(channels)});
   };
-  for (const virtual_bridge::RecordSettings& record : settings.records) {
+  for (const ponte::RecordSettings& record : settings.records) {
     (void)settings.condition(record.condition);
     std::vector<std::string> names;
     for (const sensors::LayoutChannel& channel : sensors::channels_of(layout, record.setup)) names.push_back(channel.channel);
     add(record.setup, record.kind, record.condition, names);
   }
-  for (const virtual_bridge::StayTest& test : settings.stays) add(test.stay, "stay", test.condition, {test.stay});
+  for (const ponte::StayTest& test : settings.stays) add(test.stay, "stay", test.condition, {test.stay});
   return files;
 }
 
-void write_campaign_files(const virtual_bridge::CampaignSettings& settings, const std::vector<sensors::LayoutChannel>& layout,
-                          const std::vector<virtual_bridge::StayRecord>& stays, const std::vector<RecordFile>& files,
+void write_campaign_files(const ponte::CampaignSettings& settings, const std::vector<sensors::LayoutChannel>& layout,
+                          const std::vector<ponte::StayRecord>& stays, const std::vector<RecordFile>& files,
                           const std::map<std::string, Amplitude>& amplitudes, const fs::path& folder) {
   write_channels(settings, layout, stays, folder / "channels.csv");
 
@@ -103,7 +103,7 @@ void write_campaign_files(const virtual_bridge::CampaignSettings& settings, cons
   io::write_file_atomically(folder / "campaign.toml", campaign);
 
   std::string conditions;
-  for (const virtual_bridge::ConditionSettings& c : settings.conditions) {
+  for (const ponte::ConditionSettings& c : settings.conditions) {
     conditions += fmt::format("{}[{}]\ndampers = \"{}\"\n", conditions.empty() ? "" : "\n", c.name, c.dampers ? "on" : "off");
     if (const auto amplitude = amplitudes.find(c.name); amplitude != amplitudes.end()) {
       conditions += fmt::format("amplitude_m = {}\namplitude_channel = \"{}\"\n", io::format_number(amplitude->second.rms_m),
@@ -113,7 +113,7 @@ void write_campaign_files(const virtual_bridge::CampaignSettings& settings, cons
                               io::format_number(c.wind_m_s), c.people);
   }
   std::set<std::string> of_stays;
-  for (const virtual_bridge::StayTest& test : settings.stays) {
+  for (const ponte::StayTest& test : settings.stays) {
     const bool known = std::any_of(settings.conditions.begin(), settings.conditions.end(),
                                    [&](const auto& c) { return c.name == test.condition; });
     if (!known && of_stays.insert(test.condition).second) conditions += fmt::format("\n[{}]\n", test.condition);
@@ -127,9 +127,9 @@ TruthTables::TruthTables()
       shapes_({"condition", "mode", "channel", "value", "value_imag"}),
       dampers_({"condition", "damper", "rms_force_N", "sliding_pct", "equivalent_slip_m_per_N_s"}) {}
 
-void TruthTables::add(const std::string& condition, const virtual_bridge::CampaignSettings& settings,
-                      const virtual_bridge::ConditionModel& model, const virtual_bridge::TrueModes& modes,
-                      const std::vector<sensors::LayoutChannel>& layout, const Eigen::MatrixXd& damper_force_N) {
+void TruthTables::add(const std::string& condition, const ponte::CampaignSettings& settings, const ponte::ConditionModel& model,
+                      const ponte::TrueModes& modes, const std::vector<sensors::LayoutChannel>& layout,
+                      const Eigen::MatrixXd& damper_force_N) {
   for (Index i = 0; i < modes.frequency_Hz.size(); ++i) {
     modes_.row({condition, modes.name[static_cast<std::size_t>(i)], modes.frequency_Hz[i], 100.0 * modes.damping_ratio[i],
                 modes.stay_share[i]});
@@ -159,7 +159,7 @@ void TruthTables::add(const std::string& condition, const virtual_bridge::Campai
   }
 }
 
-void TruthTables::save(const virtual_bridge::CampaignSettings& settings, const std::vector<virtual_bridge::StayRecord>& stays,
+void TruthTables::save(const ponte::CampaignSettings& settings, const std::vector<ponte::StayRecord>& stays,
                        const fs::path& folder) const {
   fs::create_directories(folder);
   modes_.save(folder / "modes.csv");
@@ -169,7 +169,7 @@ void TruthTables::save(const virtual_bridge::CampaignSettings& settings, const s
   io::CsvWriter csv({"condition", "stay", "length_m", "f1_Hz", "f2_Hz", "f3_Hz", "f4_Hz", "f5_Hz", "damping_ratio_pct",
                      "pull_per_mass_m2_s2", "lambda_squared"});
   for (std::size_t i = 0; i < stays.size(); ++i) {
-    const virtual_bridge::StayTruth& t = stays[i].truth;
+    const ponte::StayTruth& t = stays[i].truth;
     const auto f = [&](Index k) { return t.frequency_Hz[k]; };
     const std::optional<double> none;
     csv.row({settings.stays[i].condition, settings.stays[i].stay, t.length_m, f(0), f(1), f(2), f(3), f(4),

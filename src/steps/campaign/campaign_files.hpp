@@ -6,9 +6,9 @@
 #include <vector>
 
 #include "io/csv.hpp"
+#include "ponte/virtual_bridge/simulated_records.hpp"
+#include "ponte/virtual_bridge/stay_records.hpp"
 #include "sensors/layout.hpp"
-#include "virtual_bridge/simulated_records.hpp"
-#include "virtual_bridge/stay_records.hpp"
 
 /// What s0_campaign writes beside the records themselves.
 namespace twindeck::steps {
@@ -20,7 +20,7 @@ struct RecordFile {
 };
 /// Those of the decks, then those of the stays, in the order of the settings; names of files count up within a setup and
 /// condition.
-[[nodiscard]] std::vector<RecordFile> record_files(const virtual_bridge::CampaignSettings& settings,
+[[nodiscard]] std::vector<RecordFile> record_files(const ponte::CampaignSettings& settings,
                                                    const std::vector<sensors::LayoutChannel>& layout);
 
 /// RMS displacement at a channel, for conditions.toml.
@@ -30,19 +30,19 @@ struct Amplitude {
 };
 
 /// campaign.toml, channels.csv, conditions.toml. A channel counts as a reference if every setup of the tests has it.
-void write_campaign_files(const virtual_bridge::CampaignSettings& settings, const std::vector<sensors::LayoutChannel>& layout,
-                          const std::vector<virtual_bridge::StayRecord>& stays, const std::vector<RecordFile>& files,
+void write_campaign_files(const ponte::CampaignSettings& settings, const std::vector<sensors::LayoutChannel>& layout,
+                          const std::vector<ponte::StayRecord>& stays, const std::vector<RecordFile>& files,
                           const std::map<std::string, Amplitude>& amplitudes, const std::filesystem::path& folder);
 
 /// Tables of what is true; read by nothing but scorers.
 class TruthTables {
  public:
   TruthTables();
-  void add(const std::string& condition, const virtual_bridge::CampaignSettings& settings,
-           const virtual_bridge::ConditionModel& model, const virtual_bridge::TrueModes& modes,
-           const std::vector<sensors::LayoutChannel>& layout, const Eigen::MatrixXd& damper_force_N);
+  void add(const std::string& condition, const ponte::CampaignSettings& settings, const ponte::ConditionModel& model,
+           const ponte::TrueModes& modes, const std::vector<sensors::LayoutChannel>& layout,
+           const Eigen::MatrixXd& damper_force_N);
   /// modes.csv, shapes.csv, dampers.csv, stays.csv
-  void save(const virtual_bridge::CampaignSettings& settings, const std::vector<virtual_bridge::StayRecord>& stays,
+  void save(const ponte::CampaignSettings& settings, const std::vector<ponte::StayRecord>& stays,
             const std::filesystem::path& folder) const;
 
  private:

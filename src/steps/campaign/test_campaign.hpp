@@ -1,7 +1,7 @@
 #pragma once
 
+#include "ponte/virtual_bridge/campaign_settings.hpp"
 #include "runner/run_step.hpp"
-#include "virtual_bridge/campaign_settings.hpp"
 
 namespace twindeck::steps {
 
@@ -14,7 +14,6 @@ namespace twindeck::steps {
 /// column `participation_<setup>` a setup of the condition; modes below 3 Hz, `mode` empty for those that Table 4 does not
 /// name), truth/shapes.csv (`condition,mode,channel,value,value_imag` of the named modes), truth/stays.csv, truth/dampers.csv.
 /// With --calibrate: corrections.csv alone, the factors that bring the named frequencies about.
-[[nodiscard]] runner::Computation read_test_campaign(runner::StepContext& context,
-                                                     const virtual_bridge::CampaignSettings& settings);
+[[nodiscard]] runner::Computation read_test_campaign(runner::StepContext& context, const ponte::CampaignSettings& settings);
 
 }  // namespace twindeck::steps

@@ -19,8 +19,8 @@ void write_decays(const std::vector<identification::DecayResult>& decays,
   for (const identification::DecayResult& decay : decays) {
     const identification::ConditionResult* ambient = identification::condition_named(results, decay.conditioned.condition);
     for (std::size_t m = 0; m < decay.found.modes.size(); ++m) {
-      const sysid::Cluster& mode = decay.found.modes[m];
-      const sysid::ModeDeviation& deviation = decay.found.deviations[m];
+      const identification::Cluster& mode = decay.found.modes[m];
+      const identification::ModeDeviation& deviation = decay.found.deviations[m];
       const auto partner = identification::partner_of(mode, decay.conditioned.channels, ambient);
       const auto known = [&](double value) { return partner ? std::optional(value) : std::nullopt; };
       const std::size_t at = partner ? partner->mode : 0;
@@ -30,17 +30,16 @@ void write_decays(const std::vector<identification::DecayResult>& decays,
                  known(partner ? ambient->modes[at].deviation.frequency_Hz : 0.0), known(partner ? partner->mac : 0.0)});
     }
     for (const identification::DecayResult::ByAmplitude& by : decay.by_amplitude) {
-      const auto mode = std::find_if(decay.found.modes.begin(), decay.found.modes.end(),
-                                     [&](const auto& c) { return c.frequency_Hz == by.frequency_Hz; });
-      for (const sysid::AmplitudePoint& point : by.points) {
+      const Eigen::VectorXcd& shape = decay.found.modes[by.found].shape;
+      for (const identification::AmplitudePoint& point : by.points) {
         levels.row({"free_decay", decay.conditioned.condition, decay.conditioned.setup, by.record, by.mode, point.amplitude,
-                    identification::quantity_at_largest(decay.conditioned.channels, mode->shape), point.frequency_Hz,
+                    identification::quantity_at_largest(decay.conditioned.channels, shape), point.frequency_Hz,
                     point.frequency_std_Hz, 100.0 * point.damping_ratio, 100.0 * point.damping_ratio_std, point.seconds});
       }
     }
   }
   for (const identification::AmbientAmplitude& ambient : identification::ambient_amplitudes(results, config)) {
-    const sysid::MergedMode& mode = identification::condition_named(results, ambient.condition)->modes[ambient.mode];
+    const identification::MergedMode& mode = identification::condition_named(results, ambient.condition)->modes[ambient.mode];
     levels.row({"ambient", ambient.condition, ambient.setup, "", std::to_string(ambient.mode + 1), ambient.amplitude,
                 ambient.quantity, mode.frequency_Hz, mode.deviation.frequency_Hz, 100.0 * mode.damping_ratio,
                 100.0 * mode.deviation.damping_ratio, ambient.seconds});

@@ -108,7 +108,7 @@ void write_mode_exports(const identification::ConditionResult& result, const std
   for (std::size_t i = 0; i < points.size(); ++i) universal.nodes[labels[i]] = points[i].position_m;
   std::string fields;
   for (std::size_t m = 0; m < result.modes.size(); ++m) {
-    const sysid::MergedMode& mode = result.modes[m];
+    const identification::MergedMode& mode = result.modes[m];
     records::NodalResult shape;
     shape.title = fmt::format("mode {}, {:.6g} Hz, damping {:.3g} %", m + 1, mode.frequency_Hz, 100.0 * mode.damping_ratio);
     shape.analysis = 3;

@@ -23,13 +23,14 @@ std::string name_of(std::size_t mode) { return std::to_string(mode + 1); }
 // A deviation that happens to vanish must not give a row of infinite weight.
 double at_least(double deviation, double smallest) { return std::max(deviation, smallest); }
 
-bool is_partial(const sysid::MergedMode& mode) { return mode.shape.array().real().isNaN().any(); }
+bool is_partial(const identification::MergedMode& mode) { return mode.shape.array().real().isNaN().any(); }
 
-const sysid::Cluster& cluster_of(const identification::ConditionResult& result, std::pair<std::size_t, std::size_t> member) {
+const identification::Cluster& cluster_of(const identification::ConditionResult& result,
+                                          std::pair<std::size_t, std::size_t> member) {
   return result.setups[member.first].found.modes[member.second];
 }
 
-std::size_t orders_of(const identification::ConditionResult& result, const sysid::MergedMode& mode) {
+std::size_t orders_of(const identification::ConditionResult& result, const identification::MergedMode& mode) {
   std::size_t most = 0;
   for (const auto& member : mode.members) most = std::max(most, cluster_of(result, member).members.size());
   return most;
@@ -40,11 +41,12 @@ void write_modes(const identification::ConditionResult& result, const fs::path& 
                      "frequency_scatter_Hz", "damping_ratio_scatter_pct", "orders", "setups", "partial", "efdd_frequency_Hz",
                      "efdd_damping_ratio_pct"});
   for (std::size_t m = 0; m < result.modes.size(); ++m) {
-    const sysid::MergedMode& mode = result.modes[m];
-    const sysid::Cluster& first = cluster_of(result, mode.members.front());
+    const identification::MergedMode& mode = result.modes[m];
+    const identification::Cluster& first = cluster_of(result, mode.members.front());
     const bool single = mode.members.size() == 1;
-    const sysid::SingularSpectra& spectra = result.setups[mode.members.front().first].singular;
-    const sysid::EfddMode check = spectra.frequency_Hz.size() > 0 ? sysid::efdd(spectra, mode.frequency_Hz) : sysid::EfddMode{};
+    const identification::SingularSpectra& spectra = result.setups[mode.members.front().first].singular;
+    const identification::EfddMode check =
+        spectra.frequency_Hz.size() > 0 ? identification::efdd(spectra, mode.frequency_Hz) : identification::EfddMode{};
     csv.row({name_of(m), mode.frequency_Hz, mode.deviation.frequency_Hz, 100.0 * mode.damping_ratio,
              100.0 * mode.deviation.damping_ratio, single ? first.frequency_scatter_Hz : mode.frequency_scatter_Hz,
              100.0 * (single ? first.damping_ratio_scatter : mode.damping_ratio_scatter), orders_of(result, mode),
@@ -86,7 +88,7 @@ void write_poles(const identification::ConditionResult& result, const fs::path& 
   io::CsvWriter csv({"setup", "order", "frequency_Hz", "damping_ratio_pct", "stable_frequency", "stable_damping",
                      "stable_shape", "mode", "condition"});
   for (std::size_t s = 0; s < result.setups.size(); ++s) {
-    for (const sysid::DiagramPole& p : result.setups[s].found.diagram) {
+    for (const identification::DiagramPole& p : result.setups[s].found.diagram) {
       csv.row({result.setups[s].conditioned.setup, p.pole.order, p.pole.frequency_Hz, 100.0 * p.pole.damping_ratio,
                p.stable_frequency ? 1 : 0, p.stable_damping ? 1 : 0, p.stable_shape ? 1 : 0, merged_name(result, s, p.mode),
                result.condition});
@@ -182,7 +184,7 @@ void write_features(const records::Campaign& campaign, const std::vector<identif
   for (const identification::ConditionResult& result : results) {
     const std::string& condition = result.condition;
     for (std::size_t m = 0; m < result.modes.size(); ++m) {
-      const sysid::MergedMode& mode = result.modes[m];
+      const identification::MergedMode& mode = result.modes[m];
       const std::string name = name_of(m);
       csv.row({"frequency_Hz", name, "", condition, mode.frequency_Hz,
                at_least(mode.deviation.frequency_Hz, 1e-9 * mode.frequency_Hz)});
@@ -259,7 +261,7 @@ std::vector<std::string> report_lines(const identification::ConditionResult& res
       fmt::format("{:>4} {:>10} {:>9} {:>9} {:>9} {:>7} {:>7}", "mode", "f [Hz]", "sigma", "zeta [%]", "sigma", "orders",
                   "setups")};
   for (std::size_t m = 0; m < result.modes.size(); ++m) {
-    const sysid::MergedMode& mode = result.modes[m];
+    const identification::MergedMode& mode = result.modes[m];
     lines.push_back(fmt::format("{:>4} {:>10.4f} {:>9.4f} {:>9.3f} {:>9.3f} {:>7} {:>7}{}", name_of(m), mode.frequency_Hz,
                                 mode.deviation.frequency_Hz, 100.0 * mode.damping_ratio, 100.0 * mode.deviation.damping_ratio,
                                 orders_of(result, mode), mode.members.size(), is_partial(mode) ? " partial" : ""));

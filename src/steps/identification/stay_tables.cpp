@@ -10,9 +10,9 @@ namespace twindeck::steps {
 
 namespace {
 
-std::string numbers_of(const sysid::Numbering& numbering) {
+std::string numbers_of(const identification::Numbering& numbering) {
   std::vector<int> numbers;
-  for (const sysid::Harmonic& h : numbering.harmonics) numbers.push_back(h.number);
+  for (const identification::Harmonic& h : numbering.harmonics) numbers.push_back(h.number);
   return fmt::format("{}", fmt::join(numbers, " "));
 }
 
@@ -48,7 +48,7 @@ void write_stays(const std::vector<identification::StayResult>& stays, double le
                  100.0 * mode.damping_ratio_std});
     }
     if (!stay.fitted) continue;
-    const sysid::StayFit& fit = stay.fit;
+    const identification::StayFit& fit = stay.fit;
     const auto length = [&](double value) { return stay.length_m > 0.0 ? std::optional(value) : std::nullopt; };
     const auto sag = [&](double value) { return stay.modes.front().harmonic == 1 ? std::optional(value) : std::nullopt; };
     tensions.row({stay.stay,
@@ -82,10 +82,10 @@ std::vector<std::string> stay_lines(const std::vector<identification::StayResult
   constexpr double kNarrow = 0.1;   // [-] of the value: an interval that needs no advice
   std::vector<std::string> lines;
   for (const identification::StayResult& stay : stays) {
-    const sysid::StayFit& fit = stay.fit;
+    const identification::StayFit& fit = stay.fit;
     if (!stay.fitted) continue;
     const bool known = stay.length_m > 0.0;
-    const sysid::Bounded& force = known ? fit.tension_per_mass : fit.c_Hz;
+    const identification::Bounded& force = known ? fit.tension_per_mass : fit.c_Hz;
     std::string line =
         fmt::format("stay {}, {}: {} {:.6g} {} ({:.0f} %: {:.6g} to {:.6g}), harmonics {}, ends hinged {:.2f} clamped {:.2f}",
                     stay.stay, stay.condition, known ? "T/m" : "c", force.value, known ? "m2/s2" : "Hz", 100.0 * level,

@@ -131,7 +131,7 @@ void write_blind_test(const SensorsConfig& config, const sensors::BlindTestResul
         continue;
       }
       taken[at] = true;
-      const sysid::Cluster& mode = test.modes[at];
+      const identification::Cluster& mode = test.modes[at];
       const double mac =
           std::norm(mode.shape.dot(shape.cast<std::complex<double>>())) / (mode.shape.squaredNorm() * shape.squaredNorm());
       csv.row({test.setup, static_cast<long>(m + 1), frequency_Hz[m], zeta, 1, mode.frequency_Hz, 100.0 * mode.damping_ratio,
@@ -143,7 +143,7 @@ void write_blind_test(const SensorsConfig& config, const sensors::BlindTestResul
       csv.row({test.setup, "spurious", "", "", 0, test.modes[k].frequency_Hz, 100.0 * test.modes[k].damping_ratio, "", "", "",
                test.modes[k].members.size()});
     }
-    for (const sysid::DiagramPole& p : test.diagram) {
+    for (const identification::DiagramPole& p : test.diagram) {
       poles.row({test.setup, static_cast<long>(p.pole.order / 1000 + 1), static_cast<long>(p.pole.order % 1000),
                  p.pole.frequency_Hz, 100.0 * p.pole.damping_ratio, p.stable_frequency ? 1 : 0, p.stable_damping ? 1 : 0,
                  p.stable_shape ? 1 : 0, p.mode < 0 ? std::string() : std::to_string(p.mode + 1)});

@@ -10,8 +10,8 @@
 #include <sstream>
 #include <string>
 
+#include "aero/files/aero_data.hpp"
 #include "aero/laws.hpp"
-#include "aero_io/aero_data.hpp"
 #include "core/error.hpp"
 #include "io/csv.hpp"
 
@@ -63,14 +63,14 @@ std::vector<aero::DeckAerodynamics> read_deck_aerodynamics(const aero::WindSetti
                      "add a [[deck]] with name, chord, polar and, where you have it, flutter");
   std::vector<aero::DeckAerodynamics> data;
   for (const aero::DeckWind& deck : config.decks) {
-    data.push_back({aero_io::read_polar(context.input(deck.polar)), nullptr});
+    data.push_back({aero::read_polar(context.input(deck.polar)), nullptr});
     const bool asked = std::find(config.sets.begin(), config.sets.end(), "standin") != config.sets.end();
     if (deck.flutter.empty() && asked)
       throw InputError({"", 0, "deck " + deck.name}, "has no file of flutter derivatives, which the set standin is made of",
                        "give its flutter, or write sets = [\"quasi_steady\"] in step 7 and set = \"quasi_steady\" in step 8");
     if (!deck.flutter.empty())
-      data.back().flutter = std::make_shared<aero::DerivativeTable>(aero_io::read_flutter_derivatives(
-          context.input(deck.flutter), choice(config.below_range), choice(config.above_range)));
+      data.back().flutter = std::make_shared<aero::DerivativeTable>(
+          aero::read_flutter_derivatives(context.input(deck.flutter), choice(config.below_range), choice(config.above_range)));
     check_laws(deck, data.back());
   }
   return data;

@@ -3,24 +3,24 @@
 #include <algorithm>
 #include <map>
 
-#include "aero_io/turbulence_sets.hpp"
-#include "aero_io/turbulence_tables.hpp"
+#include "aero/files/turbulence_sets.hpp"
+#include "aero/files/turbulence_tables.hpp"
 
 namespace twindeck::steps {
 
 wind::TurbulenceSet read_turbulence(const ValidationConfig& config, runner::StepContext& context) {
-  wind::TurbulenceSet set = aero_io::read_turbulence_set(context.input(config.turbulence_file), config.turbulence_set);
+  wind::TurbulenceSet set = aero::read_turbulence_set(context.input(config.turbulence_file), config.turbulence_set);
   static const std::map<std::string, wind::SpectrumLaw> laws = {{"von_karman", wind::SpectrumLaw::von_karman},
                                                                 {"kaimal", wind::SpectrumLaw::kaimal},
                                                                 {"en_1991_1_4", wind::SpectrumLaw::en_1991_1_4},
                                                                 {"table", wind::SpectrumLaw::table}};
   for (wind::Spectrum& spectrum : set.spectrum) spectrum.law = laws.at(config.spectrum);
   if (!config.spectrum_file.empty()) {
-    const auto tables = aero_io::read_spectra(context.input(config.spectrum_file), config.components());
+    const auto tables = aero::read_spectra(context.input(config.spectrum_file), config.components());
     for (std::size_t c = 0; c < tables.size(); ++c) set.spectrum[c].table = tables[c];
   }
   if (!config.coherence_file.empty())
-    set.coherence = aero_io::read_coherences(context.input(config.coherence_file), config.components());
+    set.coherence = aero::read_coherences(context.input(config.coherence_file), config.components());
   if (config.coherence == "davenport")
     for (wind::PerComponent& decay : set.decay) decay.fill(config.davenport_decay);
   const auto stated = [&set](wind::Component component, const std::vector<double>& decay) {

@@ -28,9 +28,9 @@ Eigen::VectorXd at(const Eigen::VectorXd& shape, const std::vector<Index>& chann
 }
 
 /// Standard deviation that the oracle gets in one setup; infinite where it sees no pole of the mode.
-double oracle_deviation(const TrueMode& mode, const Eigen::VectorXd& shape, const sysid::Identification& setup) {
+double oracle_deviation(const TrueMode& mode, const Eigen::VectorXd& shape, const identification::Identification& setup) {
   double deviation = 1e300;
-  for (const sysid::DiagramPole& p : setup.diagram) {
+  for (const identification::DiagramPole& p : setup.diagram) {
     if (std::abs(p.pole.frequency_Hz - mode.frequency_Hz) > 3.0 * kSettledDeviation * mode.frequency_Hz) continue;
     if (p.frequency_std_Hz < deviation && known_mac(shape, p.pole.shape) >= kSameShape) deviation = p.frequency_std_Hz;
   }
@@ -117,7 +117,7 @@ IdentifiedRecords identify_records(const RandomRecords& records) {
   config.block_rows = 40;
   config.maximum_order = 80;
   IdentifiedRecords result;
-  std::vector<sysid::SetupModes> setups;
+  std::vector<identification::SetupModes> setups;
   for (std::size_t s = 0; s < records.setups.size(); ++s) {
     identification::Conditioned conditioned;
     conditioned.setup = "S" + std::to_string(s + 1);
@@ -128,13 +128,13 @@ IdentifiedRecords identify_records(const RandomRecords& records) {
     result.scale.push_back(identification::channel_rms(conditioned.records));
     result.setups.push_back(identification::identify_modes(conditioned, config));
   }
-  std::vector<sysid::Identification*> all;
-  for (sysid::Identification& setup : result.setups) all.push_back(&setup);
-  sysid::drop_lines_of_others(all, config.periodic);
+  std::vector<identification::Identification*> all;
+  for (identification::Identification& setup : result.setups) all.push_back(&setup);
+  identification::drop_lines_of_others(all, config.periodic);
   for (std::size_t s = 0; s < result.setups.size(); ++s)
     setups.push_back(
         {"S" + std::to_string(s + 1), records.setups[s].channels, result.setups[s].modes, result.setups[s].deviations});
-  result.modes = sysid::merge_poser(setups, records.n_channels, records.references, {});
+  result.modes = identification::merge_poser(setups, records.n_channels, records.references, {});
   return result;
 }
 
@@ -150,13 +150,13 @@ ModeScore score(const RandomRecords& truth, const IdentifiedRecords& found) {
     if (outcome.found < 0) continue;
     ++result.recalled;
     if (outcome.mac >= kSameShape) ++result.alike;
-    const sysid::MergedMode& mode = found.modes[static_cast<std::size_t>(outcome.found)];
+    const identification::MergedMode& mode = found.modes[static_cast<std::size_t>(outcome.found)];
     result.frequency_error.push_back((mode.frequency_Hz - truth.modes[r].frequency_Hz) / mode.deviation.frequency_Hz);
     result.damping_error.push_back((mode.damping_ratio - truth.modes[r].damping_ratio) / mode.deviation.damping_ratio);
   }
   for (const double line_Hz : truth.machine_Hz) {
-    const bool marked = std::any_of(found.setups.begin(), found.setups.end(), [&](const sysid::Identification& setup) {
-      return std::any_of(setup.periodic.begin(), setup.periodic.end(), [&](const sysid::PeriodicLine& line) {
+    const bool marked = std::any_of(found.setups.begin(), found.setups.end(), [&](const identification::Identification& setup) {
+      return std::any_of(setup.periodic.begin(), setup.periodic.end(), [&](const identification::PeriodicLine& line) {
         return std::abs(line.frequency_Hz - line_Hz) < kLineWidth * line_Hz;
       });
     });

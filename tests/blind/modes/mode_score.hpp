@@ -5,16 +5,16 @@
 #include <vector>
 
 #include "blind/modes/random_records.hpp"
-#include "sysid/identify.hpp"
-#include "sysid/merge_poser.hpp"
+#include "identification/identify.hpp"
+#include "identification/merge_poser.hpp"
 
 namespace twindeck::blind::modes {
 
 /// What step 3 makes of the records.
 struct IdentifiedRecords {
-  std::vector<sysid::Identification> setups;
-  std::vector<Eigen::VectorXd> scale;    ///< of each setup's channels: poles' shapes are those of records divided by it
-  std::vector<sysid::MergedMode> modes;  ///< merged, as modes.csv has them
+  std::vector<identification::Identification> setups;
+  std::vector<Eigen::VectorXd> scale;  ///< of each setup's channels: poles' shapes are those of records divided by it
+  std::vector<identification::MergedMode> modes;  ///< merged, as modes.csv has them
 };
 /// Step 3's own functions with settings that know nothing of the truth: 40 block rows (2 s), orders 2 to 80, 20 blocks, band up
 /// to 0.8 of the Nyquist frequency.

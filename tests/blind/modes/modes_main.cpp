@@ -74,11 +74,11 @@ void explain(std::uint64_t seed) {
   const IdentifiedRecords found = identify_records(truth);
   const ModeScore s = score(truth, found);
   const auto describe = [&](std::size_t m) {
-    const sysid::MergedMode& mode = found.modes[m];
+    const identification::MergedMode& mode = found.modes[m];
     std::string text = fmt::format("{:.4f} Hz +- {:.4f}  {:.2f} % +- {:.2f}", mode.frequency_Hz, mode.deviation.frequency_Hz,
                                    100.0 * mode.damping_ratio, 100.0 * mode.deviation.damping_ratio);
     for (const auto& [setup, at] : mode.members) {
-      const sysid::Identification& one = found.setups[setup];
+      const identification::Identification& one = found.setups[setup];
       const auto& members = one.modes[at].members;
       text += fmt::format("  S{}: {:.4f} {} orders {}-{}", setup + 1, one.modes[at].frequency_Hz, members.size(),
                           one.diagram[members.front()].pole.order, one.diagram[members.back()].pole.order);
@@ -104,15 +104,15 @@ void explain(std::uint64_t seed) {
   for (const int m : s.spurious) {
     fmt::print("  spurious: {}", describe(static_cast<std::size_t>(m)));
     for (const TrueMode& mode : truth.modes) {
-      const sysid::MergedMode& one = found.modes[static_cast<std::size_t>(m)];
+      const identification::MergedMode& one = found.modes[static_cast<std::size_t>(m)];
       if (std::abs(mode.frequency_Hz / one.frequency_Hz - 1.0) < 0.08)
         fmt::print("  [{:.3f} Hz MAC {:.2f}]", mode.frequency_Hz, known_mac(mode.shape, one.shape));
     }
     fmt::print("\n");
   }
   for (const double f : truth.machine_Hz) fmt::print("  line {:.4f} Hz{}\n", f, truth.machine_wanders ? " wanders" : "");
-  for (const sysid::Identification& setup : found.setups) {
-    for (const sysid::PeriodicLine& line : setup.periodic)
+  for (const identification::Identification& setup : found.setups) {
+    for (const identification::PeriodicLine& line : setup.periodic)
       fmt::print("  marked {:.4f} Hz {:.3f} % kurtosis {:.2f} multiple {}\n", line.frequency_Hz, 100.0 * line.damping_ratio,
                  line.kurtosis, line.multiple);
   }
@@ -126,7 +126,7 @@ void print_poles(std::uint64_t seed, double f_Hz) {
   for (std::size_t s = 0; s < found.setups.size(); ++s) {
     const auto& channels = truth.setups[s].channels;
     fmt::print("setup S{}\n order       f_Hz  std_Hz  damping_pct  mode  MAC to the true modes near\n", s + 1);
-    for (const sysid::DiagramPole& p : found.setups[s].diagram) {
+    for (const identification::DiagramPole& p : found.setups[s].diagram) {
       if (std::abs(p.pole.frequency_Hz / f_Hz - 1.0) > kReach) continue;
       fmt::print("{:>6} {:>10.4f} {:>7.4f} {:>12.2f} {:>5} ", p.pole.order, p.pole.frequency_Hz, p.frequency_std_Hz,
                  100.0 * p.pole.damping_ratio, p.mode);

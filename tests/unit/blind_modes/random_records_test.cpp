@@ -20,7 +20,7 @@ constexpr std::uint64_t kOnTheEdge = 301;
 /// entry.
 void add_modes(HeldNumbers& out, const IdentifiedRecords& found) {
   for (std::size_t i = 0; i < found.modes.size(); ++i) {
-    const sysid::MergedMode& mode = found.modes[i];
+    const identification::MergedMode& mode = found.modes[i];
     const std::string name = fmt::format("mode {}", i + 1);
     out.add(name + " frequency_Hz", mode.frequency_Hz);
     out.add(name + " damping_ratio", mode.damping_ratio);

@@ -14,17 +14,17 @@ namespace {
 using std::numbers::pi;
 
 /// Three channels; the second lags by `lag_s`. Real shapes of either sign, deviations of 0.001.
-sysid::Identification lagging(const std::vector<double>& frequencies_Hz, double lag_s) {
-  sysid::Identification found;
+identification::Identification lagging(const std::vector<double>& frequencies_Hz, double lag_s) {
+  identification::Identification found;
   double sign = 1.0;
   for (const double f : frequencies_Hz) {
-    sysid::Cluster mode;
+    identification::Cluster mode;
     mode.frequency_Hz = f;
     mode.shape = Eigen::Vector3cd(0.6, sign * 0.5, -0.6);
     mode.shape[1] *= std::polar(1.0, -2.0 * pi * f * lag_s);
     mode.shape *= std::polar(1.0, 0.3 * f);  // a phase of the whole shape does not count
     found.modes.push_back(mode);
-    sysid::ModeDeviation deviation;
+    identification::ModeDeviation deviation;
     deviation.shape_real = deviation.shape_imag = Eigen::Vector3d::Constant(0.001);
     found.deviations.push_back(deviation);
     sign = -sign;
@@ -63,7 +63,7 @@ TEST(EstimateLags, TheDeviationIsThatOfALeastSquaresSlope) {
 
 // Phases off the line by +d and -d, far beyond their deviation: the deviation grows by the root of cost/(n - 1).
 TEST(EstimateLags, WhatTheLagLeavesWidensTheDeviation) {
-  sysid::Identification found = lagging({2.0, 2.0}, 0.0);
+  identification::Identification found = lagging({2.0, 2.0}, 0.0);
   const double d = 0.1;
   found.modes[0].shape[1] *= std::polar(1.0, d);
   found.modes[1].shape[1] *= std::polar(1.0, -d);
@@ -80,7 +80,7 @@ TEST(EstimateLags, FewerThanTwoModesLeaveItUnknown) {
   estimate_lags(conditioned, lagging({1.0}, 0.01));
   EXPECT_FALSE(conditioned.quality[1].lag_s.has_value());
   EXPECT_TRUE(conditioned.quality[0].lag_s.has_value());
-  sysid::Identification none = lagging({1.0, 2.0}, 0.01);
+  identification::Identification none = lagging({1.0, 2.0}, 0.01);
   none.deviations.clear();  // of a single block
   Conditioned unknown = three_channels();
   estimate_lags(unknown, none);
@@ -89,7 +89,7 @@ TEST(EstimateLags, FewerThanTwoModesLeaveItUnknown) {
 
 // A component below five deviations has no phase: that mode does not count, and the others give the lag.
 TEST(EstimateLags, AComponentWithinItsNoiseDoesNotCount) {
-  sysid::Identification found = lagging({1.0, 2.0, 4.0}, 0.01);
+  identification::Identification found = lagging({1.0, 2.0, 4.0}, 0.01);
   found.modes[1].shape[1] = std::polar(0.0049, 1.0);
   Conditioned conditioned = three_channels();
   estimate_lags(conditioned, found);
@@ -112,8 +112,9 @@ TEST(EstimateLags, EachRecordsRowIsWritten) {
 // are 6.94 ms.
 TEST(LagWarning, NamesTheChannelAndItsLagWhereItMatters) {
   const auto warning = [](double lag_s, double deviation) {
-    sysid::Identification found = lagging({1.0, 2.0, 4.0}, lag_s);
-    for (sysid::ModeDeviation& d : found.deviations) d.shape_real = d.shape_imag = Eigen::Vector3d::Constant(deviation);
+    identification::Identification found = lagging({1.0, 2.0, 4.0}, lag_s);
+    for (identification::ModeDeviation& d : found.deviations)
+      d.shape_real = d.shape_imag = Eigen::Vector3d::Constant(deviation);
     Conditioned conditioned = three_channels();
     conditioned.setup = "S1";
     estimate_lags(conditioned, found);

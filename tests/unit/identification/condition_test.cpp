@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "../heard_reporter.hpp"
-#include "../sysid/chain.hpp"
+#include "chain.hpp"
 #include "modal/mac.hpp"
 
 namespace twindeck::identification {
@@ -14,7 +14,7 @@ namespace {
 
 using Positions = std::vector<Eigen::Index>;
 
-const sysid::test::Chain kFourMasses(4, 14.0, 0.01, 12.5);  // 1.38, 2.62, 3.61 and 4.24 Hz
+const identification::test::Chain kFourMasses(4, 14.0, 0.01, 12.5);  // 1.38, 2.62, 3.61 and 4.24 Hz
 
 /// A setup whose sensors stand at these masses, named m0 … m3; the first two stay.
 SetupResult setup_at(const Positions& masses, double gain, const IdentificationSettings& limits) {
@@ -61,7 +61,7 @@ ConditionResult identified_chain(const IdentificationSettings& config, double ga
 void expect_modes(const ConditionResult& result) {
   ASSERT_EQ(result.modes.size(), 3U);
   for (int r = 0; r < 3; ++r) {
-    const sysid::MergedMode& mode = result.modes[static_cast<std::size_t>(r)];
+    const identification::MergedMode& mode = result.modes[static_cast<std::size_t>(r)];
     EXPECT_NEAR(mode.frequency_Hz / kFourMasses.frequency_Hz(r), 1.0, 0.005);
     EXPECT_EQ(mode.members.size(), 2U);
     const Eigen::MatrixXcd truth = kFourMasses.shape(r).cast<std::complex<double>>();

@@ -16,8 +16,8 @@ std::vector<records::CampaignChannel> named_channels(const std::vector<std::stri
   return channels;
 }
 
-sysid::Cluster mode_of(double frequency_Hz, const Eigen::VectorXcd& shape) {
-  sysid::Cluster mode;
+identification::Cluster mode_of(double frequency_Hz, const Eigen::VectorXcd& shape) {
+  identification::Cluster mode;
   mode.frequency_Hz = frequency_Hz;
   mode.shape = shape;
   return mode;
@@ -73,7 +73,7 @@ TEST(PartnerOf, AComplexShapeIsNotItsConjugate) {
 TEST(PartnerOf, ChannelsThatAreUnknownDoNotCount) {
   const double nan = std::numeric_limits<double>::quiet_NaN();
   const ConditionResult ambient = condition_of({{1.0, {1.0, {nan, nan}, 0.5}}});
-  const sysid::Cluster mode = mode_of(1.0, Eigen::Vector3cd(1.0, 9.0, 0.5));
+  const identification::Cluster mode = mode_of(1.0, Eigen::Vector3cd(1.0, 9.0, 0.5));
   const auto partner = partner_of(mode, ambient.channels, &ambient);
   ASSERT_TRUE(partner.has_value());
   EXPECT_NEAR(partner->mac, 1.0, 1e-14);
@@ -165,7 +165,7 @@ TEST(IdentifyFreeDecays, ADecayHasItsFrequencyAndDamping) {
   const auto decays = identify_free_decays({released(1.0, 0.01, 5.0)}, config, {ambient}, 1);
   ASSERT_EQ(decays.size(), 1U);
   ASSERT_GE(decays[0].found.modes.size(), 1U);
-  const sysid::Cluster& mode = decays[0].found.modes[0];
+  const identification::Cluster& mode = decays[0].found.modes[0];
   EXPECT_NEAR(mode.frequency_Hz, 1.0, 1e-6);
   EXPECT_NEAR(mode.damping_ratio, 0.01, 1e-6);
   EXPECT_NEAR((mode.shape[1] / mode.shape[0]).real(), -0.5, 1e-6);
@@ -174,7 +174,7 @@ TEST(IdentifyFreeDecays, ADecayHasItsFrequencyAndDamping) {
   EXPECT_EQ(decays[0].by_amplitude[0].record, "decay.csv");
   ASSERT_GE(decays[0].by_amplitude[0].points.size(), 2U);
   double before = std::numeric_limits<double>::infinity();
-  for (const sysid::AmplitudePoint& point : decays[0].by_amplitude[0].points) {
+  for (const identification::AmplitudePoint& point : decays[0].by_amplitude[0].points) {
     EXPECT_NEAR(point.frequency_Hz, 1.0, 1e-4);
     EXPECT_NEAR(point.damping_ratio, 0.01, 1e-4);
     EXPECT_TRUE(point.amplitude < before && point.amplitude <= 1.0);  // falling, below the release's

@@ -18,13 +18,13 @@ ConditionResult with_modes(const std::vector<double>& frequencies_Hz) {
   setup.singular.frequency_Hz = Eigen::VectorXd::LinSpaced(501, 0.0, 5.0);
   setup.singular.values = Eigen::MatrixXd::Ones(501, 1);
   for (std::size_t m = 0; m < frequencies_Hz.size(); ++m) {
-    sysid::MergedMode& mode = result.modes.emplace_back();
+    identification::MergedMode& mode = result.modes.emplace_back();
     mode.frequency_Hz = frequencies_Hz[m];
     mode.damping_ratio = 0.01;
     mode.deviation.frequency_Hz = 0.002;
     mode.deviation.damping_ratio = 0.001;
     mode.shape = Eigen::Vector2cd(1.0, m % 2 == 0 ? 0.5 : -0.5);
-    sysid::Cluster& own = setup.found.modes.emplace_back();
+    identification::Cluster& own = setup.found.modes.emplace_back();
     own.frequency_Hz = frequencies_Hz[m];
     own.damping_ratio = 0.01;
   }

@@ -13,8 +13,8 @@ using Eigen::VectorXcd;
 
 VectorXcd shape(double a, double b) { return Eigen::Vector2cd(a, b); }
 
-sysid::MergedMode mode(double frequency_Hz, const VectorXcd& phi) {
-  sysid::MergedMode m;
+identification::MergedMode mode(double frequency_Hz, const VectorXcd& phi) {
+  identification::MergedMode m;
   m.frequency_Hz = frequency_Hz;
   m.damping_ratio = 0.01;
   m.shape = phi;
@@ -23,24 +23,24 @@ sysid::MergedMode mode(double frequency_Hz, const VectorXcd& phi) {
 
 /// What PreGER found; its records were not scaled.
 struct Preger {
-  sysid::Identification found;
+  identification::Identification found;
 
   void cluster(double frequency_Hz, const VectorXcd& phi) {
-    sysid::Cluster c;
+    identification::Cluster c;
     c.frequency_Hz = frequency_Hz;
     c.damping_ratio = 0.02;
     c.shape = phi;
     found.modes.push_back(c);
   }
   void pole(int order, double frequency_Hz, double damping_ratio, const VectorXcd& phi) {
-    sysid::DiagramPole p;
+    identification::DiagramPole p;
     p.pole.order = order;
     p.pole.frequency_Hz = frequency_Hz;
     p.pole.damping_ratio = damping_ratio;
     p.pole.shape = phi;
     found.diagram.push_back(p);
   }
-  [[nodiscard]] std::vector<MergingCheck> checks(const std::vector<sysid::MergedMode>& modes) const {
+  [[nodiscard]] std::vector<MergingCheck> checks(const std::vector<identification::MergedMode>& modes) const {
     return merging_checks(modes, found, std::vector<records::CampaignChannel>(2), Eigen::Vector2d::Ones());
   }
 };
@@ -101,7 +101,7 @@ TEST(MergingChecks, APoleOfTwoOrdersIsNone) {
 // and out of the norm: (3, 4, 12)/13 becomes (0.6, 0.8).
 TEST(TakePreger, DeviationsHoldTheDifferenceAndUnknownChannelsStayUnknown) {
   const double kUnknown = std::numeric_limits<double>::quiet_NaN();
-  sysid::MergedMode m = mode(1.0, Eigen::Vector3cd(-0.8, -0.6, kUnknown));
+  identification::MergedMode m = mode(1.0, Eigen::Vector3cd(-0.8, -0.6, kUnknown));
   m.deviation.frequency_Hz = 0.03;
   m.deviation.damping_ratio = 0.003;
   m.deviation.shape_real = m.deviation.shape_imag = Eigen::Vector3d(0.15, 0.2, 0.0);

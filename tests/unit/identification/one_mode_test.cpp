@@ -10,8 +10,8 @@ namespace {
 
 constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
 
-sysid::MergedMode mode_at(double frequency_Hz, double deviation_Hz, const Eigen::VectorXcd& shape, std::size_t setup) {
-  sysid::MergedMode mode;
+identification::MergedMode mode_at(double frequency_Hz, double deviation_Hz, const Eigen::VectorXcd& shape, std::size_t setup) {
+  identification::MergedMode mode;
   mode.frequency_Hz = frequency_Hz;
   mode.damping_ratio = 0.01;
   mode.deviation.frequency_Hz = deviation_Hz;
@@ -22,7 +22,7 @@ sysid::MergedMode mode_at(double frequency_Hz, double deviation_Hz, const Eigen:
   return mode;
 }
 
-ConditionResult with(std::vector<sysid::MergedMode> modes) {
+ConditionResult with(std::vector<identification::MergedMode> modes) {
   ConditionResult result;
   result.condition = "calm";
   result.channels.resize(static_cast<std::size_t>(modes.front().shape.size()));

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "../sysid/chain.hpp"
+#include "chain.hpp"
 
 namespace twindeck::identification {
 namespace {
@@ -14,7 +14,7 @@ namespace {
 /// One mass on a spring under white noise: omega = sqrt(2) omega_0.
 Samples oscillator(double frequency_Hz, double rate_Hz, Eigen::Index samples, std::uint64_t seed) {
   const double omega_0 = 2.0 * std::numbers::pi * frequency_Hz / std::sqrt(2.0);
-  return sysid::test::Chain(1, omega_0, 0.01, rate_Hz).simulate(samples, seed, 0.0);
+  return identification::test::Chain(1, omega_0, 0.01, rate_Hz).simulate(samples, seed, 0.0);
 }
 
 IdentificationSettings open_settings() {

@@ -5,7 +5,7 @@
 
 #include <cmath>
 
-#include "../sysid/chain.hpp"
+#include "chain.hpp"
 
 namespace twindeck::identification {
 namespace {
@@ -37,7 +37,7 @@ Conditioned string_record(double c_Hz, int harmonics) {
   for (int n = 1; n <= harmonics; ++n) {
     // A chain of one mass has omega = sqrt(2) omega_0.
     const double omega_0 = 2.0 * std::numbers::pi * n * c_Hz / std::sqrt(2.0);
-    sum += sysid::test::Chain(1, omega_0, 0.005, rate).simulate(8000, static_cast<std::uint64_t>(40 + n), 0.0);
+    sum += identification::test::Chain(1, omega_0, 0.005, rate).simulate(8000, static_cast<std::uint64_t>(40 + n), 0.0);
   }
   Conditioned conditioned;
   conditioned.setup = "record 7";
@@ -93,7 +93,7 @@ TEST(IdentifyStays, EndsAndLevelSetTheInterval) {
   IdentificationSettings config;
   config.stays = {{"record 7", 50.0}};
   const auto width = [&] {
-    const sysid::Bounded c = identify_stays({string_record(1.0, 4)}, config).at(0).fit.c_Hz;
+    const identification::Bounded c = identify_stays({string_record(1.0, 4)}, config).at(0).fit.c_Hz;
     return c.high - c.low;
   };
   const double open = width();

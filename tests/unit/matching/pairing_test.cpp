@@ -4,10 +4,12 @@
 
 #include <cmath>
 
+#include "pair_by_mac.hpp"
+
 namespace {
 
+using twindeck::pair_by_mac;
 using twindeck::matching::ModePair;
-using twindeck::matching::pair_by_mac;
 
 /// Orthogonal shapes at six sensors.
 Eigen::MatrixXcd shapes(int n) { return Eigen::MatrixXcd::Identity(6, n) * 2.0; }

@@ -50,8 +50,8 @@ TEST(BlindTest, FindsTheModesOfTheModel) {
     const double w_dt = 2.0 * std::numbers::pi * f[mode] / settings.rate_Hz;
     const double shifted = f[mode] * (2.0 / w_dt) * std::atan(0.5 * w_dt);
     const double scatter = std::sqrt(0.02 / (4.0 * std::numbers::pi * f[mode] * settings.duration_s)) * f[mode];
-    const sysid::Cluster* nearest = nullptr;
-    for (const sysid::Cluster& cluster : result.tests[0].modes)
+    const identification::Cluster* nearest = nullptr;
+    for (const identification::Cluster& cluster : result.tests[0].modes)
       if (nearest == nullptr || std::abs(cluster.frequency_Hz - shifted) < std::abs(nearest->frequency_Hz - shifted))
         nearest = &cluster;
     ASSERT_NE(nearest, nullptr);
@@ -69,7 +69,7 @@ TEST(BlindTest, KeepsTheOrdersOfFramesApart) {
   const BlindTestResult result =
       blind_test(short_test(), Eigen::Vector2d(1.0, 2.5), {of_rows("all", {0, 1, 2, 3})}, four_channels(), 5);
   std::set<int> orders;
-  for (const sysid::DiagramPole& pole : result.tests[0].diagram) orders.insert(pole.pole.order);
+  for (const identification::DiagramPole& pole : result.tests[0].diagram) orders.insert(pole.pole.order);
   EXPECT_EQ(orders, (std::set<int>{6, 8, 10, 1006, 1008, 1010, 2006, 2008, 2010, 3006, 3008, 3010}));
 }
 

@@ -1,0 +1,321 @@
+#include "identification/identify.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "core/error.hpp"
+#include "identification/era.hpp"
+#include "identification/ssi_cov.hpp"
+#include "identification/ssi_data.hpp"
+
+namespace twindeck::identification {
+
+namespace {
+
+/// A deviation within this many times the least one of a record of this length says nothing against a mode: records of few
+/// cycles leave every mode so, and deviations from few blocks are themselves known to a third.
+constexpr double kNearLaw = 3.0;
+
+/// Standard deviation of a unit-norm shape across itself: its scale and phase are free. 0 where the covariance is unknown.
+double shape_deviation(const Cluster& mode, const ModeDeviation& deviation) {
+  const Eigen::Index n = mode.shape.size();
+  if (deviation.factor.rows() < 2 + 2 * n) return 0.0;
+  const Eigen::VectorXcd along = mode.shape.normalized();
+  Eigen::MatrixXcd changes(n, deviation.factor.cols());
+  changes.real() = deviation.factor.middleRows(2, n);
+  changes.imag() = deviation.factor.middleRows(2 + n, n);
+  changes -= along * (along.adjoint() * changes);
+  return changes.norm();
+}
+
+/// Under random forces that stay alike, as the law of least deviation assumes.
+bool is_stationary(const IdentifyOptions& options, double seconds) { return seconds > 0.0 && options.largest_law_ratio > 0.0; }
+
+/// Phases that are arbitrary, and a shape that is not known well enough for them to be its own. A real shape with the deviation
+/// s has some s²/2 of its energy out of phase by chance, and 98 % have at most four times that; a collinearity c is a share of
+/// (1 - sqrt(c))/2. What the deviation cannot explain is the structure's own motion, as with dampers.
+bool has_arbitrary_phases(const Cluster& mode, const ModeDeviation& deviation, const AutomaticRule& rule) {
+  constexpr double kChance = 4.0;
+  // Of the poles' limit: nearer to it lie modes of a bridge with dampers that one record knows badly and another well.
+  constexpr double kBelow = 0.8;
+  if (phase_collinearity(one_quantity(mode.shape, rule.derivatives)) >= kBelow * rule.collinearity) return false;
+  const double out_of_phase = (1.0 - std::sqrt(rule.collinearity)) / 2.0;
+  return kChance * std::pow(shape_deviation(mode, deviation), 2) / 2.0 > out_of_phase;
+}
+
+bool is_settled(const Cluster& mode, const ModeDeviation& deviation, const IdentifyOptions& options, double seconds) {
+  const double f = mode.frequency_Hz, zeta = std::max(mode.damping_ratio, 1e-6), relative = deviation.frequency_Hz / f;
+  if (options.selection == Selection::paper) return options.largest_deviation <= 0.0 || relative <= options.largest_deviation;
+  const double share = options.largest_bandwidth_share;
+  // A decay whose damping may be none is not known to decay: noise has such poles, well known in frequency by chance.
+  if (seconds <= 0.0) return share <= 0.0 || (deviation.frequency_Hz <= share * zeta * f && deviation.damping_ratio <= zeta);
+  if (options.largest_law_ratio <= 0.0) return true;
+  // In relation to the half bandwidth and to the damping ratio itself, the least deviation is the same number.
+  const double law = std::sqrt(1.0 / (2.0 * std::numbers::pi * f * zeta * seconds)), short_record = kNearLaw * law;
+  const double frequency = relative / zeta, damping = deviation.damping_ratio / zeta;
+  if (options.largest_deviation > 0.0 && relative > std::max(options.largest_deviation, short_record * zeta)) return false;
+  if (options.largest_shape_deviation > 0.0 && shape_deviation(mode, deviation) > options.largest_shape_deviation) return false;
+  if (has_arbitrary_phases(mode, deviation, options.automatic)) return false;
+  return frequency <= options.largest_law_ratio * law && (share <= 0.0 || frequency <= std::max(share, short_record)) &&
+         damping <= std::max(1.0, short_record);
+}
+
+/// Another mode, better settled, that this one can't be told from: frequencies within three standard deviations, and shapes no
+/// further apart than one expects of one shape with the deviations of both. To first order 1 - MAC of two estimates of one
+/// shape has the mean s1² + s2², s their deviations across it.
+bool is_shadow(const Identification& found, std::size_t m, bool stationary) {
+  constexpr double kShapeFloor = 0.02;  // of 1 - MAC: what deviations from few blocks and the choice of an order leave out
+  constexpr double kDecayFloor =
+      0.2;  // the same of decays and earthquakes: deviations leave out that modes change with amplitude
+  const double floor = stationary ? kShapeFloor : kDecayFloor;
+  for (std::size_t k = 0; k < found.modes.size(); ++k) {
+    const ModeDeviation &mine = found.deviations[m], &other = found.deviations[k];
+    if (other.frequency_Hz >= mine.frequency_Hz) continue;
+    const double apart = std::abs(found.modes[k].frequency_Hz - found.modes[m].frequency_Hz);
+    if (apart > 3.0 * std::hypot(other.frequency_Hz, mine.frequency_Hz)) continue;
+    const double shapes = std::hypot(shape_deviation(found.modes[k], other), shape_deviation(found.modes[m], mine));
+    if (1.0 - std::norm(found.modes[k].shape.dot(found.modes[m].shape)) <= std::max(floor, shapes * shapes)) return true;
+  }
+  return false;
+}
+
+/// A mode that has lost poles is asked once more whether it is a mixture: they may have hidden it. Only modes that the records
+/// settle can be what it is made of, not a chain of noise beside it that has its shape.
+void drop_hidden_mixtures(Identification& result, const AutomaticRule& rule) {
+  std::vector<bool> stays = mixtures(result.diagram, result.modes, rule, 0.0);
+  for (std::size_t m = 0; m < stays.size(); ++m) {
+    const auto marked = std::count_if(result.diagram.begin(), result.diagram.end(),
+                                      [&](const DiagramPole& pole) { return pole.mode == static_cast<int>(m); });
+    const bool has_lost = static_cast<std::size_t>(marked) > result.modes[m].members.size();
+    stays[m] = !(stays[m] && has_lost);
+  }
+  keep_modes(result, stays);
+}
+
+}  // namespace
+
+void keep_modes(Identification& result, const std::vector<bool>& stays) {
+  const std::size_t n = result.modes.size();
+  std::vector<int> renumbered(n, -1);
+  std::size_t kept = 0;
+  for (std::size_t m = 0; m < n; ++m) {
+    if (!stays[m]) continue;
+    renumbered[m] = static_cast<int>(kept);
+    if (kept != m) {
+      result.modes[kept] = result.modes[m];
+      if (m < result.deviations.size()) result.deviations[kept] = result.deviations[m];
+    }
+    ++kept;
+  }
+  result.modes.resize(kept);
+  result.deviations.resize(std::min(result.deviations.size(), kept));
+  for (DiagramPole& pole : result.diagram) {
+    if (pole.mode >= 0) pole.mode = renumbered[static_cast<std::size_t>(pole.mode)];
+  }
+}
+
+void drop_undetermined(Identification& result, const IdentifyOptions& options, double seconds) {
+  std::vector<bool> stays;
+  for (std::size_t m = 0; m < result.modes.size(); ++m)
+    stays.push_back(is_settled(result.modes[m], result.deviations[m], options, seconds));
+  keep_modes(result, stays);
+  if (options.selection != Selection::automatic) return;
+  drop_hidden_mixtures(result, options.automatic);
+  stays.clear();
+  for (std::size_t m = 0; m < result.modes.size(); ++m) stays.push_back(!is_shadow(result, m, is_stationary(options, seconds)));
+  keep_modes(result, stays);
+}
+
+void drop_better_than_random(Identification& result, double seconds) {
+  constexpr double kChance = 3.0;  // standard deviations of a deviation from n blocks, 1/sqrt(2 (n - 1)) of it each
+  std::vector<bool> stays;
+  for (std::size_t m = 0; m < result.modes.size(); ++m) {
+    const Cluster& mode = result.modes[m];
+    const double law = std::sqrt(mode.damping_ratio * mode.frequency_Hz / (2.0 * std::numbers::pi * seconds));
+    const auto blocks = static_cast<double>(result.deviations[m].factor.cols());
+    stays.push_back(blocks < 2.0 ||
+                    result.deviations[m].frequency_Hz >= (1.0 - kChance / std::sqrt(2.0 * (blocks - 1.0))) * law);
+  }
+  const auto n_random = std::count(stays.begin(), stays.end(), true);
+  if (2 * n_random > std::ssize(stays)) keep_modes(result, stays);
+}
+
+namespace {
+
+Identification select(const ShiftModels& models, const IdentifyOptions& options) {
+  Identification result = modes_of_poles(poles_of(models), options.orders(), options);
+  result.periodic = undamped_poles(poles_of(models), options.limits.lowest_Hz, options.limits.highest_Hz, options.periodic);
+  return result;
+}
+
+/// The pole has a twin: another one of its order with the same shape, whose frequency the data cannot tell from its own. The
+/// order has a pole too many there, and either half of the split mode takes what it lacks from the other one.
+bool has_twin(const Identification& result, const ShiftModels& models, const PoleFactors& factors, std::size_t i) {
+  constexpr double kStableShape = 0.95;  // MAC of a stable shape, paper section 3.1
+  constexpr double kChance = 3.0;        // standard deviations of the difference
+  const Pole& pole = result.diagram[i].pole;
+  return std::any_of(result.diagram.begin(), result.diagram.end(), [&](const DiagramPole& other) {
+    const Pole& twin = other.pole;
+    return twin.order == pole.order && &twin != &pole && std::norm(twin.shape.dot(pole.shape)) >= kStableShape &&
+           std::abs(twin.frequency_Hz - pole.frequency_Hz) <= kChance * difference_deviation(models, factors, twin, pole);
+  });
+}
+
+/// Twice the lower quartile of deviations: poles that are known worse do not speak for their mode.
+double largest_well_known(std::vector<double> deviations) {
+  std::sort(deviations.begin(), deviations.end());
+  return 2.0 * deviations[deviations.size() / 4];
+}
+
+/// Orders at which a pole has split in two know either half badly and do not speak for the mode. Where most orders are split
+/// the quartile itself is that of halves, and the orders that have the pole whole stand for it: two poles that differ by no
+/// more than chance are one more than the data support. That may be a single order: that of the true number of modes, for the
+/// mode that appears last. Not so of free decays: what their deviations leave out shows in the scatter over orders only.
+void keep_well_known(Identification& result, const ShiftModels& models, const PoleFactors& factors, bool stationary) {
+  for (Cluster& mode : result.modes) {
+    std::vector<double> deviations, whole;
+    for (const std::size_t i : mode.members) {
+      deviations.push_back(frequency_deviation(models, factors, result.diagram[i].pole));
+      if (!has_twin(result, models, factors, i)) whole.push_back(deviations.back());
+    }
+    const auto well_known = [&](double most) {
+      std::vector<std::size_t> kept;
+      for (std::size_t k = 0; k < deviations.size(); ++k) {
+        if (deviations[k] <= most) kept.push_back(mode.members[k]);
+      }
+      return kept;
+    };
+    std::vector<std::size_t> kept = well_known(largest_well_known(deviations));
+    const double most_of_whole = whole.empty() ? 0.0 : largest_well_known(whole);
+    if (stationary && !whole.empty() && 2.0 * most_of_whole < largest_well_known(deviations)) kept = well_known(most_of_whole);
+    mode = summarise(result.diagram, std::move(kept));
+  }
+}
+
+/// The covariance says how far the records settle a pole of one order; which order it is, nobody knows. A pole that holds a
+/// share of a weak neighbour moves with the order, by more than its covariance where the neighbour lies within the bandwidth.
+void add_order_scatter(Identification& result) {
+  for (std::size_t m = 0; m < result.modes.size(); ++m) {
+    ModeDeviation& deviation = result.deviations[m];
+    deviation.frequency_Hz = std::hypot(deviation.frequency_Hz, result.modes[m].frequency_scatter_Hz);
+    deviation.damping_ratio = std::hypot(deviation.damping_ratio, result.modes[m].damping_ratio_scatter);
+  }
+}
+
+void add_deviations(Identification& result, const Observability& observability, const ShiftModels& models,
+                    const Changes& changes, const IdentifyOptions& options, double seconds) {
+  const PoleFactors factors = pole_factors(observability, models, changes);
+  for (DiagramPole& pole : result.diagram) pole.frequency_std_Hz = frequency_deviation(models, factors, pole.pole);
+  if (options.selection == Selection::automatic) keep_well_known(result, models, factors, is_stationary(options, seconds));
+  std::vector<std::vector<Pole>> members;
+  for (const Cluster& mode : result.modes) {
+    members.emplace_back();
+    for (const std::size_t i : mode.members) members.back().push_back(result.diagram[i].pole);
+  }
+  result.deviations = mode_deviations(models, factors, members);
+  drop_undetermined(result, options, seconds);
+  if (options.selection == Selection::automatic && is_stationary(options, seconds)) drop_better_than_random(result, seconds);
+  add_order_scatter(result);
+}
+
+/// Drops the modes that are lines: no further from one than its poles scatter, or two standard deviations, and with a damping
+/// ratio that does not differ from what taking a line out leaves by more than two standard deviations.
+void drop_lines(Identification& result, const std::vector<PeriodicLine>& lines, const PeriodicRule& rule) {
+  constexpr double kFew = 2.0;  // standard deviations that chance explains
+  std::vector<bool> stays(result.modes.size(), true);
+  for (std::size_t m = 0; m < stays.size(); ++m) {
+    const Cluster& mode = result.modes[m];
+    const bool known = m < result.deviations.size();
+    const double damping = known ? kFew * result.deviations[m].damping_ratio : 0.0;
+    const double spread = rule.largest_spread * mode.frequency_Hz;
+    const double reach = std::max(spread, known ? kFew * result.deviations[m].frequency_Hz : 0.0);
+    if (mode.damping_ratio >= rule.largest_leftover + std::max(damping, rule.largest_damping)) continue;
+    stays[m] = std::none_of(lines.begin(), lines.end(),
+                            [&](const PeriodicLine& line) { return std::abs(line.frequency_Hz - mode.frequency_Hz) < reach; });
+  }
+  keep_modes(result, stays);
+}
+
+}  // namespace
+
+void mark_periodic(Identification& result, const std::vector<Samples>& records, double rate_Hz, const PeriodicRule& rule,
+                   const std::vector<PeriodicLine>& known) {
+  const auto is_known = [&](const PeriodicLine& line) {
+    return std::any_of(known.begin(), known.end(), [&](const PeriodicLine& other) {
+      return std::abs(other.frequency_Hz - line.frequency_Hz) < rule.largest_spread * line.frequency_Hz;
+    });
+  };
+  result.periodic = periodic_lines(result.periodic, records, rate_Hz, rule);
+  std::erase_if(result.periodic, is_known);
+  result.periodic.insert(result.periodic.end(), known.begin(), known.end());
+  std::ranges::sort(result.periodic, {}, &PeriodicLine::frequency_Hz);
+  drop_lines(result, result.periodic, rule);
+}
+
+void drop_lines_of_others(const std::vector<Identification*>& setups, const PeriodicRule& rule) {
+  for (Identification* setup : setups) {
+    for (const Identification* other : setups) {
+      if (other != setup) drop_lines(*setup, other->periodic, rule);
+    }
+  }
+}
+
+std::vector<int> IdentifyOptions::orders() const {
+  std::vector<int> list;
+  for (int order = minimum_order; order <= maximum_order; order += order_step) list.push_back(order);
+  TWINDECK_ASSERT(!list.empty());
+  return list;
+}
+
+Identification modes_of_poles(const std::vector<std::vector<Pole>>& poles, const std::vector<int>& orders,
+                              const IdentifyOptions& options) {
+  Identification found;
+  found.diagram = stabilisation_diagram(poles, options.criteria, options.limits);
+  found.modes = options.selection == Selection::paper ? identify_clusters(found.diagram, orders, options.cleaning)
+                                                      : automatic_clusters(found.diagram, orders, options.automatic);
+  return found;
+}
+
+Identification identify(const signal::BlockCorrelations& blocks, double rate_Hz, const IdentifyOptions& options) {
+  TWINDECK_ASSERT(blocks.n_lags >= 2 * options.block_rows);
+  const std::vector<int> orders = options.orders();
+  const Observability observability = ssi_cov(blocks.mean(), options.block_rows, blocks.n_outputs, orders.back());
+  const ShiftModels models = shift_models(observability, orders, rate_Hz);
+  Identification result = select(models, options);
+  if (blocks.n_blocks() < 2) return result;
+  add_deviations(result, observability, models, covariance_changes(blocks, options.block_rows, observability, models), options,
+                 blocks.counts.row(0).sum() / rate_Hz);
+  return result;
+}
+
+Identification identify_from_data(const std::vector<Samples>& records, const std::vector<Eigen::Index>& references,
+                                  const signal::BlockCorrelations& blocks, double rate_Hz, const IdentifyOptions& options) {
+  const std::vector<int> orders = options.orders();
+  std::vector<Eigen::MatrixXd> grams;
+  double samples = 0.0;
+  for (const Samples& record : records) {
+    grams.push_back(hankel_gram(record, references, options.block_rows));
+    samples += static_cast<double>(record.rows() - 2 * options.block_rows + 1);
+  }
+  const DataDriven found = ssi_data(grams, samples, static_cast<Eigen::Index>(references.size()), records.front().cols(),
+                                    options.block_rows, orders.back());
+  grams.clear();
+  const ShiftModels models = shift_models(found.observability, orders, rate_Hz);
+  Identification result = select(models, options);
+  if (blocks.n_blocks() < 2) return result;
+  add_deviations(result, found.observability, models, data_changes(blocks, references, options.block_rows, found, models),
+                 options, samples / rate_Hz);
+  return result;
+}
+
+Identification identify_decays(const std::vector<Eigen::MatrixXd>& decays, double rate_Hz, const IdentifyOptions& options,
+                               std::uint64_t seed, const std::vector<Eigen::MatrixXd>& quiet) {
+  constexpr int kDraws = 100;  // deviations within 7 %
+  const FreeDecay found = era(decays, options.block_rows, options.orders(), rate_Hz, seed, kDraws, quiet);
+  Identification result = select(found.models, options);
+  add_deviations(result, found.observability, found.models, found.changes, options, 0.0);
+  return result;
+}
+
+}  // namespace twindeck::identification

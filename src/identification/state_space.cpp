@@ -1,0 +1,95 @@
+#include "identification/state_space.hpp"
+
+#include <Eigen/Dense>
+#include <Eigen/Eigenvalues>
+#include <Eigen/LU>
+#include <Eigen/QR>
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "core/error.hpp"
+#include "linalg/canonical_basis.hpp"
+#include "linalg/dense.hpp"
+
+namespace twindeck::identification {
+
+using Eigen::Index;
+
+Eigen::VectorXcd normalised_shape(const Eigen::VectorXcd& shape) {
+  const double length = shape.norm();
+  if (!(length > 0.0)) return shape;
+  const std::complex<double> sum = (shape.transpose() * shape).value();
+  Eigen::VectorXcd turned = shape / length * std::polar(1.0, -0.5 * std::arg(sum));
+  if (turned[linalg::leading_entry(turned.cwiseAbs())].real() < 0.0) turned = -turned;
+  return turned;
+}
+
+namespace {
+
+Pole pole_of(std::complex<double> mu, const Eigen::VectorXcd& shape, int order, double rate_Hz) {
+  Pole pole;
+  pole.order = order;
+  pole.eigenvalue = std::log(mu) * rate_Hz;
+  pole.frequency_Hz = std::abs(pole.eigenvalue) / (2.0 * std::numbers::pi);
+  pole.damping_ratio = -pole.eigenvalue.real() / std::abs(pole.eigenvalue);
+  pole.shape = normalised_shape(shape);
+  return pole;
+}
+
+void find_poles(OrderModel& model, double rate_Hz) {
+  const Eigen::EigenSolver<Eigen::MatrixXd> eigen(model.a);
+  if (eigen.info() != Eigen::Success) return;
+  model.mu = eigen.eigenvalues();
+  model.right = eigen.eigenvectors();
+  model.left = model.right.partialPivLu().inverse();
+  for (Index i = 0; i < model.mu.size(); ++i) {
+    if (model.mu[i].imag() > 0.0) model.kept.push_back(i);
+  }
+  std::sort(model.kept.begin(), model.kept.end(),
+            [&](Index i, Index j) { return std::abs(std::log(model.mu[i])) < std::abs(std::log(model.mu[j])); });
+  for (const Index i : model.kept) {
+    const Eigen::VectorXcd phi = model.right.col(i);
+    model.poles.push_back(pole_of(model.mu[i], model.c * phi, model.order, rate_Hz));
+  }
+}
+
+}  // namespace
+
+ShiftModels shift_models(const Observability& observability, const std::vector<int>& orders, double rate_Hz) {
+  const Index rows = observability.left.rows() - observability.n_outputs;
+  const Index n_max = orders.empty() ? 0 : *std::max_element(orders.begin(), orders.end());
+  TWINDECK_ASSERT(n_max <= observability.left.cols() && n_max <= rows);
+  const Eigen::MatrixXd o =
+      observability.left.leftCols(n_max) * observability.singular_values.head(n_max).cwiseSqrt().asDiagonal();
+  const Eigen::HouseholderQR<Eigen::MatrixXd> qr(o.topRows(rows));
+  ShiftModels models;
+  models.q = qr.householderQ() * Eigen::MatrixXd::Identity(rows, n_max);
+  models.r = qr.matrixQR().topRows(n_max).triangularView<Eigen::Upper>();
+  models.rotated = linalg::product(models.q, o.bottomRows(rows), true);
+  models.cross = linalg::product(models.rotated, models.r, true);
+  models.rate_Hz = rate_Hz;
+  for (const int order : orders) {
+    OrderModel model;
+    model.order = order;
+    model.a =
+        models.r.topLeftCorner(order, order).triangularView<Eigen::Upper>().solve(models.rotated.topLeftCorner(order, order));
+    model.c = o.topLeftCorner(observability.n_outputs, order);
+    find_poles(model, rate_Hz);
+    models.orders.push_back(std::move(model));
+  }
+  return models;
+}
+
+std::vector<std::vector<Pole>> poles_of(const ShiftModels& models) {
+  std::vector<std::vector<Pole>> poles;
+  for (const OrderModel& model : models.orders) poles.push_back(model.poles);
+  return poles;
+}
+
+std::vector<std::vector<Pole>> poles_of_orders(const Observability& observability, const std::vector<int>& orders,
+                                               double rate_Hz) {
+  return poles_of(shift_models(observability, orders, rate_Hz));
+}
+
+}  // namespace twindeck::identification

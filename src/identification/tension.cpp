@@ -1,0 +1,242 @@
+#include "identification/tension.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <set>
+
+#include "core/distributions.hpp"
+#include "core/error.hpp"
+#include "identification/numbering.hpp"
+
+namespace twindeck::identification {
+
+namespace {
+
+constexpr double kGravity_m_s2 = 9.81;
+constexpr double kSeen = 0.85;           ///< chance that a record shows a harmonic that lies below the highest it shows
+constexpr double kWorthComparing = 7.0;  ///< [nats] below the most probable numbering: less has no share
+constexpr double kWorthNaming = 0.01;    ///< probability
+
+/// A numbering with its posterior.
+struct Explained {
+  Numbers numbers;
+  std::vector<Harmonic> harmonics;
+  StayPosterior posterior;
+  double log_probability = 0.0;
+};
+
+Explained explain(const std::vector<Harmonic>& frequencies, const Numbers& numbers, const StaySection& section, Effort effort) {
+  Explained result;
+  result.numbers = numbers;
+  for (const auto& [number, at] : numbers)
+    result.harmonics.push_back({number, frequencies[at].frequency_Hz, frequencies[at].deviation_Hz});
+  result.posterior = stay_posterior(result.harmonics, section, effort);
+  const auto seen = static_cast<double>(numbers.size()), missing = numbers.rbegin()->first - seen;
+  result.log_probability = result.posterior.log_evidence + seen * std::log(kSeen) + missing * std::log(1.0 - kSeen);
+  return result;
+}
+
+const StayPart& likeliest(const StayPosterior& posterior) {
+  return *std::max_element(posterior.parts.begin(), posterior.parts.end(),
+                           [](const StayPart& a, const StayPart& b) { return a.log_weight < b.log_weight; });
+}
+
+struct Share {
+  double weight;
+  StayPart part;
+};
+
+/// The parts of all numberings with their probabilities.
+std::vector<Share> shares_of(const std::vector<Explained>& numberings) {
+  double most = -1e300, sum = 0.0;
+  const auto log_share = [](const Explained& e, const StayPart& part) {
+    return part.log_weight + e.log_probability - e.posterior.log_evidence;
+  };
+  for (const Explained& e : numberings) {
+    for (const StayPart& part : e.posterior.parts) most = std::max(most, log_share(e, part));
+  }
+  std::vector<Share> shares;
+  for (const Explained& e : numberings) {
+    for (const StayPart& part : e.posterior.parts) {
+      const double weight = std::exp(log_share(e, part) - most);
+      if (weight < 1e-6) continue;
+      shares.push_back({weight, part});
+      sum += weight;
+    }
+  }
+  for (Share& share : shares) share.weight /= sum;
+  return shares;
+}
+
+/// A mixture of normal laws.
+struct Mixture {
+  struct Law {
+    double weight, mean, deviation;
+  };
+  std::vector<Law> laws;
+  double low = 1e300, high = -1e300;
+
+  void add(const Law& law) {
+    laws.push_back(law);
+    low = std::min(low, law.mean - 6.0 * law.deviation);
+    high = std::max(high, law.mean + 6.0 * law.deviation);
+  }
+  [[nodiscard]] double below(double x) const {
+    double sum = 0.0;
+    for (const Law& law : laws) sum += law.weight * normal_probability((x - law.mean) / law.deviation);
+    return sum;
+  }
+  /// x with below(x) = share, by bisection.
+  [[nodiscard]] double quantile(double share) const {
+    double from = low, to = high;
+    while (to - from > 1e-7 * (high - low)) {
+      const double middle = 0.5 * (from + to);
+      (below(middle) < share ? from : to) = middle;
+    }
+    return 0.5 * (from + to);
+  }
+  /// Median, and the shortest interval: with two kinds of ends that explain the data, equal tails would cut both of them.
+  [[nodiscard]] Bounded bounds(double level) const {
+    constexpr int kSteps = 20;
+    Bounded best{quantile(0.5), 0.0, 1e300};
+    for (int i = 0; i <= kSteps; ++i) {
+      const double from = (1.0 - level) * i / kSteps, start = quantile(from), end = quantile(from + level);
+      if (end - start < best.high - best.low) best = {best.value, start, end};
+    }
+    return best;
+  }
+};
+
+Bounded bounded_c(const std::vector<Share>& shares, double level, const StaySection& section) {
+  Mixture mixture;
+  for (const Share& share : shares) {
+    const double c = std::exp(share.part.log_c);
+    const double weight = section.length_m > 0.0 ? kGravity_m_s2 / (4.0 * section.length_m * c * c) : 0.0;  // g L/(T/m)
+    mixture.add({share.weight, share.part.log_c, std::hypot(share.part.log_c_deviation, weight * weight / 24.0)});
+  }
+  const Bounded log_c = mixture.bounds(level);
+  return {std::exp(log_c.value), std::exp(log_c.low), std::exp(log_c.high)};
+}
+
+Bounded bounded_sag(const std::vector<Share>& shares, double level) {
+  Mixture mixture;
+  for (const Share& share : shares) mixture.add({share.weight, share.part.sag, std::max(share.part.sag_deviation, 1e-9)});
+  const Bounded sag = mixture.bounds(level);
+  const auto lambda_squared = [](double x) { return std::max(0.0, std::expm1(x)); };
+  return {lambda_squared(sag.value), lambda_squared(sag.low), lambda_squared(sag.high)};
+}
+
+/// Median of xi, and its bounds by equal tails.
+Bounded bounded_xi(const std::vector<Share>& shares, double level) {
+  std::map<double, double> sorted;
+  for (const Share& share : shares) sorted[share.part.beam.xi] += share.weight;
+  const auto at = [&](double share) {
+    double sum = 0.0;
+    for (const auto& [x, weight] : sorted) {
+      sum += weight;
+      if (sum >= share) return x;
+    }
+    return sorted.rbegin()->first;
+  };
+  return {at(0.5), at(0.5 * (1.0 - level)), at(0.5 * (1.0 + level))};
+}
+
+Numbering named(const Explained& explained, double probability) {
+  Numbering numbering{explained.harmonics, {}, probability};
+  for (const auto& [number, at] : explained.numbers) numbering.positions.push_back(at);
+  return numbering;
+}
+
+double residual_of(const Explained& explained) {
+  const StayPart& part = likeliest(explained.posterior);
+  double sum = 0.0;
+  for (const Harmonic& h : explained.harmonics) {
+    const double expected = std::exp(part.log_c) * frequency_ratio(h.number, part.beam);
+    sum += std::pow((h.frequency_Hz - expected) / h.deviation_Hz, 2);
+  }
+  return std::sqrt(sum / static_cast<double>(explained.harmonics.size()));
+}
+
+/// @param numberings  the most probable first
+StayFit fit_of(const std::vector<Explained>& numberings, const StaySection& section, double level) {
+  StayFit fit;
+  const std::vector<Share> shares = shares_of(numberings);
+  fit.c_Hz = bounded_c(shares, level, section);
+  const auto tension = [&](double c) { return std::pow(2.0 * std::max(section.length_m, 0.0) * c, 2); };
+  fit.tension_per_mass = {tension(fit.c_Hz.value), tension(fit.c_Hz.low), tension(fit.c_Hz.high)};
+  fit.lambda_squared = bounded_sag(shares, level);
+  fit.xi = bounded_xi(shares, level);
+  for (const Share& share : shares) {
+    if (share.part.beam.fixity <= 0.0) fit.hinged += share.weight;
+    if (share.part.beam.fixity >= 1.0) fit.clamped += share.weight;
+  }
+  double sum = 0.0;
+  for (const Explained& e : numberings) sum += std::exp(e.log_probability - numberings.front().log_probability);
+  for (const Explained& e : numberings) {
+    const double probability = std::exp(e.log_probability - numberings.front().log_probability) / sum;
+    if (&e == &numberings.front()) {
+      fit.numbering = named(e, probability);
+    } else if (probability > kWorthNaming) {
+      fit.others.push_back(named(e, probability));
+    }
+  }
+  fit.residual = residual_of(numberings.front());
+  return fit;
+}
+
+/// Numberings of the coarse grid, each renumbered by the beam that explains it best, and without what that beam does not
+/// explain.
+std::vector<Explained> compared(const std::vector<Harmonic>& frequencies, const StaySection& section, double lowest_Hz,
+                                double highest_Hz) {
+  constexpr double kReach = 0.05;        // of the spacing
+  constexpr double kLeastReach = 0.004;  // of the frequency
+  std::vector<double> values;
+  for (const Harmonic& f : frequencies) values.push_back(f.frequency_Hz);
+  std::set<Numbers> done;
+  std::vector<Explained> numberings;
+  for (Numbers numbers : candidate_numbers(values, lowest_Hz, highest_Hz)) {
+    for (int turn = 0; turn < 3 && numbers.size() >= 2 && done.insert(numbers).second; ++turn) {
+      numberings.push_back(explain(frequencies, numbers, section, Effort::quick));
+      const StayPart& part = likeliest(numberings.back().posterior);
+      numbers = numbers_near(values, std::exp(part.log_c), part.beam, kReach, kLeastReach);
+    }
+  }
+  return numberings;
+}
+
+void most_probable_first(std::vector<Explained>& numberings) {
+  std::stable_sort(numberings.begin(), numberings.end(),
+                   [](const Explained& a, const Explained& b) { return a.log_probability > b.log_probability; });
+  std::erase_if(numberings,
+                [&](const Explained& e) { return e.log_probability < numberings.front().log_probability - kWorthComparing; });
+}
+
+}  // namespace
+
+StayFit fit_stay(const std::vector<Harmonic>& frequencies, const StaySection& section, double level, double lowest_Hz,
+                 double highest_Hz) {
+  if (frequencies.size() < 2) return {};
+  std::vector<Explained> numberings = compared(frequencies, section, lowest_Hz, highest_Hz);
+  if (numberings.empty()) return {};
+  most_probable_first(numberings);
+  constexpr std::size_t kMost = 3;
+  if (numberings.size() > kMost) numberings.resize(kMost);
+  for (Explained& e : numberings) e = explain(frequencies, e.numbers, section, Effort::full);
+  most_probable_first(numberings);
+  return fit_of(numberings, section, level);
+}
+
+StayFit fit_numbered(const std::vector<Harmonic>& harmonics, const StaySection& section, double level) {
+  if (harmonics.size() < 2) {
+    throw InputError({"", 0, "stay"}, fmt::format("has {} harmonics, expected at least two", harmonics.size()),
+                     "identify higher modes of the stay");
+  }
+  Numbers numbers;
+  for (std::size_t i = 0; i < harmonics.size(); ++i) numbers[harmonics[i].number] = i;
+  return fit_of({explain(harmonics, numbers, section, Effort::full)}, section, level);
+}
+
+}  // namespace twindeck::identification

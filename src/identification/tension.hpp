@@ -1,0 +1,47 @@
+#pragma once
+
+#include <vector>
+
+#include "identification/stay_posterior.hpp"
+
+namespace twindeck::identification {
+
+/// A quantity with the bounds of its interval at the requested level. The value is the median.
+struct Bounded {
+  double value = 0.0, low = 0.0, high = 0.0;
+};
+
+/// Frequencies numbered as harmonics of one stay.
+struct Numbering {
+  std::vector<Harmonic> harmonics;     ///< ascending in number
+  std::vector<std::size_t> positions;  ///< of each among the frequencies
+  double probability = 0.0;            ///< among the numberings that were compared
+};
+
+/// Force, sag, bending stiffness and ends of a stay.
+struct StayFit {
+  Bounded c_Hz;                        ///< frequency of the taut string, sqrt(T/m)/(2 L)
+  Bounded tension_per_mass;            ///< T/m = (2 L c)² [m²/s²]
+  Bounded lambda_squared;              ///< Irvine's parameter
+  Bounded xi;                          ///< L sqrt(T/EI)
+  double hinged = 0.0, clamped = 0.0;  ///< probabilities of the ends; the rest: springs between
+  double residual = 0.0;               ///< RMS of the normalised residuals of the likeliest beam
+  Numbering numbering;                 ///< the most probable
+  std::vector<Numbering> others;       ///< of the others those above one per cent, the most probable first
+};
+
+/// Which of the frequencies are which harmonics, and what follows for the stay. Numberings compete by their evidence
+/// (stay_posterior): a frequency that is no harmonic may have any value, and a harmonic below the highest one is missing with a
+/// chance of fifteen per cent. The intervals hold all numberings, all kinds of ends, and what the parabola neglects, the excess
+/// length (g L/(T/m))²/24 of the arc over the chord.
+/// @param frequencies  modes of the record, ascending; their numbers are not read
+/// @param lowest_Hz, highest_Hz  range of c; highest 0: any
+/// @return  without harmonics where fewer than two frequencies belong together
+[[nodiscard]] StayFit fit_stay(const std::vector<Harmonic>& frequencies, const StaySection& section, double level,
+                               double lowest_Hz = 0.0, double highest_Hz = 0.0);
+
+/// The same with the numbers as given.
+/// @param harmonics  two or more @throws InputError  for fewer, or as stay_posterior
+[[nodiscard]] StayFit fit_numbered(const std::vector<Harmonic>& harmonics, const StaySection& section, double level);
+
+}  // namespace twindeck::identification

@@ -1,0 +1,256 @@
+#include "ponte/virtual_bridge/simulated_records.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "core/error.hpp"
+#include "core/random.hpp"
+#include "matching/pairing.hpp"
+#include "sensors/logger.hpp"
+
+namespace twindeck::ponte {
+using Eigen::Index;
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+namespace {
+
+constexpr double kWarmUp_s = 100.0;  // ten times as long as the longest-lived mode takes to forget its start by a factor 1/e
+
+std::vector<int> nodes_of(const BridgeState& state, const std::vector<sensors::LayoutPoint>& points) {
+  std::vector<Eigen::Vector3d> places;
+  for (const sensors::LayoutPoint& point : points) places.push_back(point.x_m);
+  return sensors::nodes_at(state.chains.model, places, 0.05);
+}
+
+/// A node that is loaded in its three directions, and how much.
+struct LoadedNode {
+  int node;
+  double density;  ///< square root of the one-sided spectral density [N/sqrt(Hz)]
+};
+
+int head_of_mast(const fe::Model& model) {
+  int head = 0;
+  for (std::size_t i = 0; i < model.nodes.size(); ++i) {
+    if (model.nodes[i].x_m.z() > model.nodes[static_cast<std::size_t>(head)].x_m.z()) head = static_cast<int>(i);
+  }
+  return head;
+}
+
+/// Decks in the order of the layout, head of the mast, inner nodes of the hanging stays by name.
+std::vector<LoadedNode> loaded_nodes(const ConditionSettings& condition, const BridgeState& state,
+                                     const std::vector<sensors::LayoutPoint>& points) {
+  std::vector<LoadedNode> loaded;
+  for (const int node : nodes_of(state, points)) loaded.push_back({node, condition.force_deck});
+  loaded.push_back({head_of_mast(state.chains.model), condition.force_mast});
+  for (const auto& [name, nodes] : state.chains.nodes) {
+    for (std::size_t k = 1; k + 1 < nodes.size(); ++k) loaded.push_back({nodes[k], condition.force_stay});
+  }
+  return loaded;
+}
+
+/// Modal loads from sample to sample: white loads where they act, projected. A stretch of samples is projected at once.
+class AmbientLoads {
+ public:
+  /// @param intensity  standard deviation of a load of density 1 [sqrt(Hz)]
+  AmbientLoads(const MatrixXd& loads, double intensity, std::uint64_t seed, std::uint64_t stream)
+      : loads_(intensity * loads),
+        seed_(seed),
+        stream_(stream),
+        drawn_(loads.cols(), kStretch),
+        modal_(loads.rows(), kStretch) {}
+  /// @param step  from 0, one after the other
+  auto at(Index step) {
+    if (step % kStretch == 0) draw(step);
+    return modal_.col(step % kStretch);
+  }
+
+ private:
+  static constexpr Index kStretch = 128;
+  void draw(Index first) {
+    const auto begin = static_cast<std::uint64_t>(first * drawn_.rows());
+    for (Index i = 0; i < drawn_.size(); ++i)
+      drawn_.data()[i] = white_number(seed_, stream_, begin + static_cast<std::uint64_t>(i));
+    modal_.noalias() = loads_ * drawn_;
+  }
+  MatrixXd loads_;
+  std::uint64_t seed_, stream_;
+  MatrixXd drawn_, modal_;  // (n_loads × stretch), (n_modes × stretch)
+};
+
+void fit_dampers(const CampaignSettings& settings, ConditionModel& out, MatrixXd& loads) {
+  const fe::Model& model = out.state->chains.model;
+  std::vector<VectorXd> columns;
+  for (const fe::Spring& spring : model.springs) {
+    if (!spring.group.starts_with("damper_")) continue;
+    const auto kind = std::find_if(settings.dampers.begin(), settings.dampers.end(),
+                                   [&](const DamperSettings& d) { return "damper_" + d.type == spring.group; });
+    TWINDECK_ASSERT(kind != settings.dampers.end());
+    transient::SlidingDamper damper;
+    damper.stiffness_N_m = kind->mount_stiffness_N_m > 0.0 ? kind->mount_stiffness_N_m : spring.stiffness;
+    damper.mount_damping_N_s_m = kind->mount_loss_factor * damper.stiffness_N_m / (2.0 * std::numbers::pi);
+    damper.damping_N_s_m = spring.damping;
+    damper.friction_N = kind->friction_N;
+    out.dampers.push_back(damper);
+    out.damper_names.push_back(spring.name);
+    VectorXd load = VectorXd::Zero(out.state->system.expansion.rows());
+    load.segment<3>(6 * spring.node) = spring.direction.normalized();
+    columns.emplace_back(out.state->system.expansion.transpose() * load);
+  }
+  loads.resize(out.state->system.size(), std::ssize(columns));
+  for (std::size_t i = 0; i < columns.size(); ++i) loads.col(static_cast<Index>(i)) = columns[i];
+}
+
+}  // namespace
+
+ConditionModel condition_model(const CampaignSettings& settings, const ConditionSettings& condition, const BridgeState& state,
+                               const std::vector<sensors::LayoutPoint>& points) {
+  ConditionModel out;
+  out.settings = &condition;
+  out.state = &state;
+  MatrixXd loads(state.system.size(), 0);
+  if (condition.dampers) fit_dampers(settings, out, loads);
+  const linalg::SparseMatrix stiffness = state.system.stiffness(state.theta), mass = state.system.mass(state.theta);
+  MatrixXd corrections(state.system.size(), 0);
+  if (condition.dampers) {
+    linalg::Cholesky factor;
+    const Status status = factor.factorize(stiffness);
+    if (!status.converged) throw InputError({settings.bridge, 0, ""}, "has a singular stiffness matrix: " + status.message);
+    corrections = transient::static_corrections(factor, mass, state.modes.shapes, loads, loads.cols());
+  }
+  // Corrections are orthogonal to the modes in K and M, so that they come after them, above the last one's frequency.
+  out.basis = transient::reduced_basis(stiffness, mass, state.modes.shapes, corrections);
+  out.n_modes = state.modes.shapes.cols();
+  const Index r = out.basis.omega_rad_s.size(), n = out.n_modes;
+  out.at_dampers = loads.transpose() * out.basis.vectors;
+  out.damping = VectorXd::Constant(r, settings.correction_damping);
+  out.damping.head(n) = imposed_damping(state, settings);
+
+  const MatrixXd full = state.system.expand(out.basis.vectors.leftCols(n));
+  const std::vector<LoadedNode> loaded = loaded_nodes(condition, state, points);
+  out.loads.resize(n, 3 * std::ssize(loaded));
+  for (std::size_t i = 0; i < loaded.size(); ++i)
+    out.loads.middleCols(3 * static_cast<Index>(i), 3) = loaded[i].density * full.middleRows(6 * loaded[i].node, 3).transpose();
+  if ((out.loads.rowwise().squaredNorm().array() <= 0.0).any())
+    throw InputError({"", 0, "force.deck"}, "leaves modes without load", "give a force on decks, stays and mast");
+  out.load_covariance = MatrixXd::Zero(r, r);
+  out.load_covariance.topLeftCorner(n, n) = out.loads * out.loads.transpose();
+  return out;
+}
+
+MotionRecorder::MotionRecorder(const ConditionModel& model, const CampaignSettings& settings, MatrixXd seen, Index n_samples)
+    : seen_(std::move(seen)),
+      first_late_((seen_.rows() + 1) / 2),
+      substeps_(settings.substeps),
+      late_substep_(settings.second_logger_lag),
+      square_(VectorXd::Zero(seen_.rows())) {
+  motion_.acceleration_m_s2.resize(n_samples, seen_.rows());
+  motion_.damper_force_N.resize(model.dampers.empty() ? 0 : n_samples * substeps_, std::ssize(model.dampers));
+}
+
+void MotionRecorder::take(Index sample, long substep, const transient::TrapezoidalStepper& stepper) {
+  if (sample < 0) return;
+  const Index n_late = seen_.rows() - first_late_;
+  if (substep == 0)
+    motion_.acceleration_m_s2.row(sample).head(first_late_).noalias() =
+        (seen_.topRows(first_late_) * stepper.acceleration()).transpose();
+  if (substep == late_substep_)
+    motion_.acceleration_m_s2.row(sample).tail(n_late).noalias() =
+        (seen_.bottomRows(n_late) * stepper.acceleration()).transpose();
+  if (motion_.damper_force_N.size() > 0) motion_.damper_force_N.row(sample * substeps_ + substep) = stepper.damper_force();
+  if (substep + 1 == substeps_) square_ += (seen_ * stepper.displacement()).cwiseAbs2();
+}
+
+Motion MotionRecorder::motion() {
+  motion_.rms_displacement_m = (square_ / static_cast<double>(motion_.acceleration_m_s2.rows())).cwiseSqrt();
+  return std::move(motion_);
+}
+
+Motion simulate(const ConditionModel& model, const CampaignSettings& settings, const RecordSettings& record,
+                const std::vector<sensors::LayoutChannel>& channels, const std::vector<sensors::LayoutPoint>& points,
+                std::uint64_t seed, std::uint64_t stream) {
+  const Index r = model.basis.omega_rad_s.size(), n = model.n_modes;
+  const MatrixXd seen = at_channels(*model.state, model.basis.vectors, channels);
+  const auto n_samples = static_cast<Index>(std::lround(record.duration_s * settings.rate_Hz));
+  transient::TrapezoidalStepper stepper(model.basis.omega_rad_s, model.damping,
+                                        1.0 / (settings.rate_Hz * static_cast<double>(settings.substeps)));
+  if (!model.dampers.empty()) stepper.set_dampers(model.at_dampers, model.dampers);
+
+  Index warm_up = static_cast<Index>(std::lround(kWarmUp_s * settings.rate_Hz));
+  if (record.kind == "free_decay") {
+    warm_up = 0;
+    const auto at =
+        std::find_if(points.begin(), points.end(), [&](const sensors::LayoutPoint& p) { return p.name == record.point; });
+    TWINDECK_ASSERT(at != points.end());
+    const MatrixXd down = at_channels(*model.state, model.basis.vectors, {sensors::channel_at(*at, "vertical", "")});
+    const VectorXd load = -record.mass_kg * model.state->chains.model.gravity_m_s2 * down.transpose();
+    stepper.start(load.cwiseQuotient(model.basis.omega_rad_s.cwiseAbs2()), load);
+  }
+
+  // A force of density S [N²/Hz, one-sided] sampled at f has the variance S f / 2.
+  const double intensity = std::sqrt(0.5 * settings.rate_Hz);
+  AmbientLoads loads(model.loads, intensity, seed, stream);
+  VectorXd before = VectorXd::Zero(r), after = VectorXd::Zero(r);
+  MotionRecorder recorder(model, settings, seen, n_samples);
+  for (Index sample = -warm_up; sample < n_samples; ++sample) {
+    before = after;
+    after.head(n) = loads.at(sample + warm_up);
+    for (long k = 0; k < settings.substeps; ++k) {
+      const double part = static_cast<double>(k + 1) / static_cast<double>(settings.substeps);
+      stepper.step((1.0 - part) * before + part * after);
+      recorder.take(sample, k, stepper);
+    }
+  }
+  return recorder.motion();
+}
+
+MatrixXd logged_record(const Motion& motion, const CampaignSettings& settings, std::uint64_t seed, std::uint64_t record) {
+  constexpr std::uint64_t kLoggerStreams = 1000;  // beyond the loads' streams, which have one a record
+  MatrixXd out = motion.acceleration_m_s2;
+  const sensors::LoggerErrors errors{settings.noise, settings.converter_step, settings.range, settings.drift};
+  for (Index c = 0; c < out.cols(); ++c) {
+    out.col(c) = sensors::logged(out.col(c), errors, seed, kLoggerStreams * (record + 1) + static_cast<std::uint64_t>(c));
+  }
+  return out;
+}
+
+TrueModes true_modes(const ConditionModel& model, const CampaignSettings& settings, const MatrixXd& damper_force_N,
+                     double highest_Hz) {
+  const std::size_t d = model.dampers.size();
+  TrueModes out;
+  out.slip.resize(static_cast<Index>(d));
+  for (std::size_t j = 0; j < d; ++j)
+    out.slip[static_cast<Index>(j)] = transient::equivalent_slip(model.dampers[j], damper_force_N.col(static_cast<Index>(j)));
+  const transient::LinearisedModes modes = transient::linearised_modes(model.basis.omega_rad_s, model.damping, model.at_dampers,
+                                                                       model.dampers, out.slip, highest_Hz);
+  out.frequency_Hz = modes.frequency_Hz;
+  out.damping_ratio = modes.damping_ratio;
+  out.shapes = modes.shapes.colwise().normalized();
+  out.name.resize(static_cast<std::size_t>(out.frequency_Hz.size()));
+  // Shares of the undamped modes in the shape: exact for the stays', as modes are orthogonal in M.
+  const MatrixXd share = out.shapes.cwiseAbs2();
+  out.stay_share = share.topRows(model.n_modes).transpose() * model.state->stay_share;
+  // Only what moves the decks and still is at least a fifth the old mode keeps its name.
+  constexpr double kLeastShare = 0.2;
+  const Eigen::RowVectorXd moves_decks = (out.stay_share.transpose().array() < 0.5).cast<double>();
+  const MatrixXd named = share(model.state->named, Eigen::all).array().rowwise() * moves_decks.array();
+  const std::vector<int> followed = matching::follow_modes(named);
+  for (std::size_t i = 0; i < followed.size(); ++i) {
+    if (followed[i] < 0 || named(static_cast<Index>(i), followed[i]) < kLeastShare) continue;
+    out.name[static_cast<std::size_t>(followed[i])] = settings.named[i].name;
+  }
+  return out;
+}
+
+VectorXd participation(const ConditionModel& model, const TrueModes& modes, const MatrixXd& channel_shapes) {
+  MatrixXd variance = (channel_shapes * modes.shapes).cwiseAbs2();
+  for (Index i = 0; i < variance.cols(); ++i) {
+    const double load = (modes.shapes.col(i).adjoint() * model.load_covariance * modes.shapes.col(i)).value().real();
+    variance.col(i) *= load * std::numbers::pi * modes.frequency_Hz[i] / (4.0 * modes.damping_ratio[i]);
+  }
+  const VectorXd total = variance.rowwise().sum();
+  return (variance.array().colwise() / total.array()).colwise().maxCoeff();
+}
+
+}  // namespace twindeck::ponte

@@ -1,0 +1,85 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "ponte/virtual_bridge/virtual_bridge.hpp"
+#include "transient/trapezoidal.hpp"
+
+/// Time histories of the virtual bridge, and what is true about them.
+namespace twindeck::ponte {
+
+/// The bridge in a condition, in the basis in which its motion is computed.
+struct ConditionModel {
+  const ConditionSettings* settings = nullptr;
+  const BridgeState* state = nullptr;
+  transient::ReducedBasis basis;  ///< modes, and after them static corrections for the dampers
+  Eigen::Index n_modes = 0;
+  Eigen::VectorXd damping;  ///< (r) imposed ratios
+  std::vector<std::string> damper_names;
+  std::vector<transient::SlidingDamper> dampers;  ///< empty where none are fitted
+  Eigen::MatrixXd at_dampers;                     ///< (n_dampers × r)
+  /// (n_modes × n_loads) modal loads of loads of 1 where they act: nodes of decks, mast and stays, three directions each, in
+  /// the order of the layout and of the stays' names; times their density [N/sqrt(Hz)]. Drawn there, a record hangs neither on
+  /// signs of modes nor on how modes of one frequency are turned.
+  Eigen::MatrixXd loads;
+  Eigen::MatrixXd load_covariance;  ///< (r × r) of the modal loads per Hz, one-sided [N²/Hz over kg]
+};
+[[nodiscard]] ConditionModel condition_model(const CampaignSettings& settings, const ConditionSettings& condition,
+                                             const BridgeState& state, const std::vector<sensors::LayoutPoint>& points);
+
+/// Motion at the channels as it really was, before any logger.
+struct Motion {
+  Eigen::MatrixXd acceleration_m_s2;   ///< (n_samples × n_channels), the second half of the channels lagging
+  Eigen::MatrixXd damper_force_N;      ///< (n_steps × n_dampers)
+  Eigen::VectorXd rms_displacement_m;  ///< (n_channels)
+};
+
+/// Takes down the motion while it is computed.
+class MotionRecorder {
+ public:
+  /// @param seen  (n_channels × r) accelerations of the channels from those of the coordinates
+  MotionRecorder(const ConditionModel& model, const CampaignSettings& settings, Eigen::MatrixXd seen, Eigen::Index n_samples);
+  /// After each substep of a sample; negative samples are the warm-up, of which nothing is kept.
+  void take(Eigen::Index sample, long substep, const transient::TrapezoidalStepper& stepper);
+  [[nodiscard]] Motion motion();
+
+ private:
+  Eigen::MatrixXd seen_;
+  Eigen::Index first_late_;
+  long substeps_, late_substep_;
+  Eigen::VectorXd square_;
+  Motion motion_;
+};
+
+/// Ambient: the loads of the condition from rest, its first 100 s left out. Free decay: the static displacement under the hung
+/// mass, let go at the first sample, loads as before. Trapezoidal rule, settings.substeps steps a sample; loads are white
+/// numbers at the sampling rate, one a node and direction, joined by straight lines.
+/// @param stream  of random numbers: one a record
+[[nodiscard]] Motion simulate(const ConditionModel& model, const CampaignSettings& settings, const RecordSettings& record,
+                              const std::vector<sensors::LayoutChannel>& channels,
+                              const std::vector<sensors::LayoutPoint>& points, std::uint64_t seed, std::uint64_t stream);
+
+/// What the loggers made of a motion [m/s²] (n_samples × n_channels): noise, steps, range and drift of the settings.
+/// @param record  number of the record, which has random streams of its own
+[[nodiscard]] Eigen::MatrixXd logged_record(const Motion& motion, const CampaignSettings& settings, std::uint64_t seed,
+                                            std::uint64_t record);
+
+/// True modes of a condition: of the bridge as it is, or with its dampers linearised at the forces of a record.
+struct TrueModes {
+  std::vector<std::string> name;  ///< of the named mode that it still is for at least a fifth, "" for others
+  Eigen::VectorXd frequency_Hz, damping_ratio, stay_share;
+  Eigen::MatrixXcd shapes;  ///< (r × n) in the basis, unit norm
+  Eigen::VectorXd slip;     ///< (n_dampers) [m/(N s)]
+};
+[[nodiscard]] TrueModes true_modes(const ConditionModel& model, const CampaignSettings& settings,
+                                   const Eigen::MatrixXd& damper_force_N, double highest_Hz);
+
+/// Largest share, over the channels, that each mode has in the variance of the acceleration under the condition's loads:
+/// variance at c of mode i  |phi_ci|² · phi_i^H S phi_i · pi f_i / (4 zeta_i). @return (n_modes)
+[[nodiscard]] Eigen::VectorXd participation(const ConditionModel& model, const TrueModes& modes,
+                                            const Eigen::MatrixXd& channel_shapes);
+
+}  // namespace twindeck::ponte

@@ -1,0 +1,211 @@
+#include "ponte/virtual_bridge/virtual_bridge.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+#include "core/error.hpp"
+#include "fe/uneven_shells.hpp"
+#include "io/csv.hpp"
+#include "matching/pairing.hpp"
+#include "ponte/generator.hpp"
+#include "ponte/zoned_members.hpp"
+
+namespace twindeck::ponte {
+using Eigen::Index;
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+namespace {
+
+constexpr double kDeckMode = 0.5;         ///< [-] of the kinetic energy in stays: a mode with less is one of the decks
+constexpr double kNeverPaired = 1e3;      ///< a distance in ln f beyond any between two modes
+constexpr double kSensorAtNode_m = 0.05;  ///< a sensor is at a node that is this near: the layout prints centimetres
+
+/// Every [[damper]] of the configuration belongs to a type of the bridge's definition, and stands once; where dampers are
+/// fitted, every type has one.
+void check_damper_types(const CampaignSettings& settings, const fe::Model& model) {
+  const std::string prefix = "damper_";
+  std::set<std::string> types, seen;
+  for (const fe::Spring& spring : model.springs)
+    if (spring.group.starts_with(prefix)) types.insert(spring.group.substr(prefix.size()));
+  const std::vector<std::string> known(types.begin(), types.end());
+  for (const DamperSettings& damper : settings.dampers) {
+    if (!types.contains(damper.type))
+      throw InputError(
+          {"", 0, "damper"},
+          fmt::format("'{}' is no type of damper of {}{}", damper.type, settings.bridge, did_you_mean(damper.type, known)),
+          known.empty() ? "the bridge has no dampers" : fmt::format("use {}", fmt::join(known, ", ")));
+    if (!seen.insert(damper.type).second)
+      throw InputError({"", 0, "damper"}, fmt::format("type '{}' stands twice", damper.type), "give each type one table");
+  }
+  if (std::none_of(settings.conditions.begin(), settings.conditions.end(), [](const auto& c) { return c.dampers; })) return;
+  for (const std::string& type : known)
+    if (!seen.contains(type))
+      throw InputError({"", 0, "damper"}, "has no table for type " + type, "add [[damper]] with its mount and friction");
+}
+
+}  // namespace
+
+VirtualBridge read_virtual_bridge(const std::filesystem::path& definition, const CampaignSettings& settings) {
+  VirtualBridge bridge;
+  const fe::Model members = with_zoned_members(generate(definition, "as_built"), static_cast<int>(settings.zones));
+  bridge.undivided = fe::with_uneven_shells(members, settings.unevenness, settings.unevenness_wavelength_m);
+  fe::validate(bridge.undivided);
+  check_damper_types(settings, bridge.undivided);
+  bridge.uncorrected = fe::initial_parameters(bridge.undivided);
+  return bridge;
+}
+
+VirtualBridge numbered(VirtualBridge bridge) {
+  const fe::ParametricSystem system = fe::assemble(bridge.undivided, fe::find_prestress(bridge.undivided, bridge.uncorrected));
+  fe::check_no_mechanism(system, bridge.uncorrected, bridge.undivided.source);
+  bridge.n_deck = system.size();
+  return bridge;
+}
+
+VectorXd corrected_parameters(const VirtualBridge& bridge, const std::filesystem::path& file) {
+  VectorXd theta = bridge.uncorrected;
+  if (file.empty()) return theta;
+  const auto table = io::CsvTable::read(file, {"parameter", "factor"});
+  std::vector<std::string> names;
+  for (const fe::Parameter& p : bridge.undivided.parameters) names.push_back(p.name);
+  for (std::size_t row = 0; row < table.rows(); ++row) {
+    const std::string name = table.text(row, "parameter");
+    const auto at = std::find(names.begin(), names.end(), name);
+    if (at == names.end())
+      table.fail(row, "parameter", "'" + name + "' is no parameter of the virtual bridge" + did_you_mean(name, names));
+    const double factor = table.number(row, "factor");
+    if (factor <= 0.0) table.fail(row, "factor", fmt::format("is {:g}, expected more than 0", factor));
+    theta[at - names.begin()] *= factor;
+  }
+  return theta;
+}
+
+VectorXd at_temperature(const VirtualBridge& bridge, const CampaignSettings& settings, VectorXd theta, double temperature_C) {
+  for (const TemperatureEffect& effect : settings.temperature) {
+    const auto& parameters = bridge.undivided.parameters;
+    const auto at =
+        std::find_if(parameters.begin(), parameters.end(), [&](const fe::Parameter& p) { return p.name == effect.parameter; });
+    if (at == parameters.end())
+      throw InputError({settings.bridge, 0, "temperature_effect"},
+                       "'" + effect.parameter + "' is no parameter of the virtual bridge");
+    theta[at - parameters.begin()] *= 1.0 + effect.per_K * (temperature_C - settings.reference_temperature_C);
+  }
+  return theta;
+}
+
+std::vector<Index> follow_named(const BridgeState& before, const BridgeState& state) {
+  const std::vector<int> followed =
+      matching::follow_modes((before.modes.shapes(Eigen::all, before.named).transpose() * state.mass_shapes).cwiseAbs2());
+  return {followed.begin(), followed.end()};
+}
+
+namespace {
+
+/// One mode each, pairs of least distance first; modes that are mostly stays are not looked at.
+std::vector<Index> nearest_named(const BridgeState& state, const CampaignSettings& settings) {
+  const Index n = std::ssize(settings.named), m = state.modes.frequency_Hz.size();
+  MatrixXd distance(n, m);
+  for (Index i = 0; i < n; ++i) {
+    for (Index j = 0; j < m; ++j) {
+      const double ratio = state.modes.frequency_Hz[j] / settings.named[static_cast<std::size_t>(i)].frequency_Hz;
+      distance(i, j) = state.stay_share[j] < kDeckMode ? std::abs(std::log(ratio)) : kNeverPaired;
+    }
+  }
+  std::map<Index, Index> mode_of;
+  for (Index k = 0; k < n; ++k) {
+    Index i = 0, j = 0;
+    distance.minCoeff(&i, &j);
+    mode_of[i] = j;
+    distance.row(i).setConstant(1e6);
+    distance.col(j).setConstant(1e6);
+  }
+  std::vector<Index> named;
+  for (const auto& [name, mode] : mode_of) named.push_back(mode);
+  return named;
+}
+
+}  // namespace
+
+BridgeState solve_bridge(const VirtualBridge& bridge, const CampaignSettings& settings, const VectorXd& theta, long n_modes) {
+  BridgeState state;
+  const fe::PrestressState pulls = fe::find_prestress(bridge.undivided, theta);
+  if (!pulls.status.converged) throw InputError({settings.bridge, 0, "prestress"}, pulls.status.message);
+  state.chains =
+      fe::with_stay_chains(bridge.undivided, pulls, static_cast<int>(settings.stay_pieces), settings.vibrating_stays);
+  state.system = fe::assemble(state.chains.model, state.chains.state);
+  state.theta = theta;
+  dynamics::ModalSolver solver(state.system);
+  state.modes = solver.solve(theta, static_cast<int>(n_modes));
+  if (!state.modes.status.converged) throw InputError({"", 0, "modes"}, state.modes.status.message, "ask for fewer modes");
+
+  // The chains' nodes come last, so that the first dofs are those of the undivided bridge.
+  const Index n_deck = bridge.n_deck;
+  const auto deck_mass = solver.mass().topLeftCorner(n_deck, n_deck).eval();
+  const auto deck_shapes = state.modes.shapes.topRows(n_deck);
+  const MatrixXd mass_shapes = deck_mass.selfadjointView<Eigen::Lower>() * deck_shapes;
+  state.stay_share = 1.0 - deck_shapes.cwiseProduct(mass_shapes).colwise().sum().transpose().array();
+  state.mass_shapes = solver.mass().selfadjointView<Eigen::Lower>() * state.modes.shapes;
+  state.named = nearest_named(state, settings);
+  return state;
+}
+
+namespace {
+
+/// Refuses corrections that were found for other frequencies or for another bridge. @param state  with the corrections,
+/// untouched by temperature
+void refuse_stale_corrections(const CampaignSettings& settings, const BridgeState& state) {
+  constexpr double kAllowed = 0.002;  // [-] ten times what --calibrate ends at: rounding and a mode that turns do not reach it
+  if (settings.corrections.empty()) return;
+  for (std::size_t i = 0; i < settings.named.size(); ++i) {
+    const NamedMode& wanted = settings.named[i];
+    const double f_Hz = state.modes.frequency_Hz[state.named[i]];
+    if (std::abs(f_Hz / wanted.frequency_Hz - 1.0) > kAllowed)
+      throw InputError(
+          {settings.corrections, 0, "factor"},
+          fmt::format("the bridge has mode {} at {:.4f} Hz, expected {:g} Hz within {:g} %, as mode.frequency says",
+                      wanted.name, f_Hz, wanted.frequency_Hz, 100.0 * kAllowed),
+          "find corrections for it with --calibrate and corrections = \"\"");
+  }
+}
+
+}  // namespace
+
+std::map<double, BridgeState> solve_states(const VirtualBridge& bridge, const CampaignSettings& settings,
+                                           const VectorXd& theta) {
+  std::map<double, BridgeState> states;
+  const BridgeState& reference =
+      states.emplace(settings.reference_temperature_C, solve_bridge(bridge, settings, theta, settings.modes)).first->second;
+  refuse_stale_corrections(settings, reference);
+  for (const ConditionSettings& condition : settings.conditions) {
+    if (states.contains(condition.temperature_C)) continue;
+    BridgeState state =
+        solve_bridge(bridge, settings, at_temperature(bridge, settings, theta, condition.temperature_C), settings.modes);
+    state.named = follow_named(reference, state);
+    states.emplace(condition.temperature_C, std::move(state));
+  }
+  return states;
+}
+
+VectorXd imposed_damping(const BridgeState& state, const CampaignSettings& settings) {
+  const Eigen::ArrayXd stays = state.stay_share.array().max(0.0).min(1.0);
+  VectorXd damping = stays * settings.stay_damping + (1.0 - stays) * settings.other_damping;
+  for (std::size_t i = 0; i < state.named.size(); ++i) damping[state.named[i]] = settings.named[i].damping_ratio;
+  return damping;
+}
+
+MatrixXd at_channels(const BridgeState& state, const MatrixXd& x, const std::vector<sensors::LayoutChannel>& channels) {
+  std::vector<Eigen::Vector3d> places;
+  for (const sensors::LayoutChannel& channel : channels) places.push_back(channel.x_m);
+  const std::vector<int> nodes = sensors::nodes_at(state.chains.model, places, kSensorAtNode_m);
+  const MatrixXd full = state.system.expand(x);
+  MatrixXd out(std::ssize(channels), x.cols());
+  for (std::size_t c = 0; c < channels.size(); ++c)
+    out.row(static_cast<Index>(c)) = channels[c].cosines.transpose() * full.middleRows(6 * nodes[c], 3);
+  return out;
+}
+
+}  // namespace twindeck::ponte
