@@ -84,11 +84,15 @@ std::vector<VisibleLoss> visible_losses(const fe::Model& model, const MatrixXd& 
     double loss = kFirstShare * found.wall_m;
     VectorXd change = weighed_change(model, modes, frequency_Hz, wall, loss, monitored);
     directions[static_cast<std::size_t>(at)] = change;
+    double power = 1.0;  // of the distance in the loss, from the last two of them
     for (int step = 0; step < kMostSteps && std::abs(change.norm() / seen - 1.0) > kWidth; ++step) {
-      const double next = std::min(most, change.norm() > 0.0 ? loss * seen / change.norm() : most);
+      const double before = change.norm();
+      const double next = std::min(most, before > 0.0 ? loss * std::pow(seen / before, 1.0 / power) : most);
       if (next == loss) break;
+      change = weighed_change(model, modes, frequency_Hz, wall, next, monitored);
+      const double slope = std::log(change.norm() / before) / std::log(next / loss);
+      if (std::isfinite(slope) && slope > 0.0) power = slope;
       loss = next;
-      change = weighed_change(model, modes, frequency_Hz, wall, loss, monitored);
     }
     found.distance = change.norm();
     if (std::abs(found.distance / seen - 1.0) <= kWidth) found.loss_m = loss;
