@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
+#include <set>
 
 #include "core/error.hpp"
 #include "diagnosis/mode_blocks.hpp"
@@ -47,6 +48,43 @@ Explanation explanation_by_law(const LawSearch& search, const LawAccount& accoun
   return out;
 }
 
+/// Residuals of nothing with its modes as they are paired: opened ones would pass for rows that it predicts. Rows of the modes
+/// that the answer holds for none of the model's are in neither.
+void tell_residuals_of_pairs(const LawSetting& setting, const LawSearch& search, const std::vector<std::vector<int>>& blocks,
+                             const std::vector<Explanation>& entries, int bootstrap, std::uint64_t seed, PredictiveGain& gain) {
+  std::set<int> open;
+  for (const int m : search.accounts.front().opened) {
+    const VectorXd variance =
+        variance_of_open(setting.plain.map(), setting.plain.map().measured_modes()[static_cast<std::size_t>(m)]);
+    for (std::size_t at = 0; at < setting.plain.training().size(); ++at)
+      if (variance[setting.plain.training()[at]] > 0.0) open.insert(static_cast<int>(at));
+  }
+  std::vector<std::vector<int>> kept;
+  std::vector<std::size_t> which;
+  for (std::size_t b = 0; b < blocks.size(); ++b) {
+    gain.blocks[b].before = gain.blocks[b].after = 0.0;
+    gain.blocks[b].rows = 0;
+    std::vector<int> rows = blocks[b];
+    std::erase_if(rows, [&](int at) { return open.contains(at); });
+    if (rows.empty()) continue;
+    kept.push_back(std::move(rows));
+    which.push_back(b);
+  }
+  LawAccount none;
+  none.evidence = search.none;
+  none.log_weight = search.none.log_evidence;
+  none.hypothesis = {search.system.residual, VectorXd::Zero(1), MatrixXd(search.system.residual.size(), 0), {}, {}, {}};
+  const PredictiveGain paired = gain_of_odds(kept, explanation_by_law(search, none), entries, bootstrap, seed);
+  for (std::size_t b = 0; b < paired.blocks.size(); ++b) {
+    gain.blocks[which[b]].before = paired.blocks[b].before;
+    gain.blocks[which[b]].after = paired.blocks[b].after;
+    gain.blocks[which[b]].rows = paired.blocks[b].rows;
+  }
+  gain.reduction_pct = paired.reduction_pct;
+  gain.low_pct = paired.low_pct;
+  gain.high_pct = paired.high_pct;
+}
+
 }  // namespace
 
 const LawAccount* leading_model_error(const LawSearch& search) {
@@ -61,7 +99,11 @@ PredictiveGain gain_by_law(const LawSetting& setting, const LawSearch& search, i
   for (const LawAccount& account : search.accounts)
     if (account.scored && account.log_weight > search.accounts.front().log_weight - kGuarded)
       entries.push_back(explanation_by_law(search, account));
-  return gain_of_odds(mode_blocks(setting.plain, search.base), explanation_by_law(search, nothing), entries, bootstrap, seed);
+  const std::vector<std::vector<int>> blocks = mode_blocks(setting.plain, search.base);
+  PredictiveGain gain = gain_of_odds(blocks, explanation_by_law(search, nothing), entries, bootstrap, seed);
+  if (!entries.empty() && !nothing.opened.empty())
+    tell_residuals_of_pairs(setting, search, blocks, entries, bootstrap, seed, gain);
+  return gain;
 }
 
 bool each_cause_predicts(const LawSetting& setting, const LawSearch& search, const LawAccount& set, int bootstrap,

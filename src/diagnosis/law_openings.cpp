@@ -3,6 +3,7 @@
 #include <Eigen/Cholesky>
 #include <algorithm>
 #include <map>
+#include <string>
 #include <utility>
 
 #include "linalg/dense.hpp"
@@ -15,32 +16,34 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-/// Rows of a measured mode among the training rows, and their variance if it is none of the model's.
+/// Rows of a mode among the training rows, and their variance if it is none of the model's. Within a state one name is one
+/// mode: it is the model's in all conditions or in none, and no hypothesis may say that it is another at a large amplitude.
 struct OpenRows {
-  int mode = 0;
+  std::vector<int> modes;  ///< measured ones
   std::vector<int> rows;
-  VectorXd variance;
+  std::vector<double> variance;
+  [[nodiscard]] double log_prior() const { return static_cast<double>(modes.size()) * log_prior_of_open(); }
 };
 
 std::vector<OpenRows> modes_that_may_open(const Inference& plain, const LawSystem& system) {
   const FeatureMap& map = plain.map();
-  std::map<int, int> position;
-  for (const int row : plain.training()) position.try_emplace(row, static_cast<int>(std::ssize(position)));
-  std::vector<OpenRows> out;
+  std::map<std::pair<std::string, std::string>, OpenRows> by_name;  // state, label
   for (std::size_t m = 0; m < map.measured_modes().size(); ++m) {
     const MeasuredMode& mode = map.measured_modes()[m];
-    if (mode.real_rows.size() < 2 || !position.contains(mode.real_rows.front())) continue;  // no shape tells it from others
+    if (mode.real_rows.size() < 2) continue;  // no shape tells it from others
     const VectorXd all = variance_of_open(map, mode);
-    OpenRows open{static_cast<int>(m), {}, {}};
-    for (const auto& [row, at] : position)
-      if (all[row] > 0.0) open.rows.push_back(at);
-    open.variance.resize(std::ssize(open.rows));
-    for (const auto& [row, at] : position)
-      if (const auto here = std::find(open.rows.begin(), open.rows.end(), at); here != open.rows.end())
-        open.variance[here - open.rows.begin()] = all[row];
-    const bool is_open = (system.sigma.diagonal()(open.rows).array() > open.variance.array()).all();
-    if (!is_open) out.push_back(std::move(open));
+    OpenRows& open = by_name[{map.features().conditions[static_cast<std::size_t>(mode.condition)].state, mode.label}];
+    open.modes.push_back(static_cast<int>(m));
+    for (std::size_t at = 0; at < plain.training().size(); ++at) {
+      const double variance = all[plain.training()[at]], known = system.sigma(static_cast<Index>(at), static_cast<Index>(at));
+      if (variance <= 0.0 || known > variance) continue;  // it is open already, or set aside
+      open.rows.push_back(static_cast<int>(at));
+      open.variance.push_back(variance);
+    }
   }
+  std::vector<OpenRows> out;
+  for (auto& [name, open] : by_name)
+    if (!open.rows.empty()) out.push_back(std::move(open));
   return out;
 }
 
@@ -72,8 +75,9 @@ std::vector<std::pair<double, int>> gains_of_opening(const LawSystem& system, co
     const auto n = std::ssize(open.rows);
     const MatrixXd covariance = precision(open.rows, open.rows).ldlt().solve(MatrixXd::Identity(n, n));
     const VectorXd e = covariance * weighed(open.rows);
+    const VectorXd variance = Eigen::Map<const VectorXd>(open.variance.data(), n);
     const double gain =
-        log_density(e, covariance + MatrixXd(open.variance.asDiagonal())) - log_density(e, covariance) + log_prior_of_open();
+        log_density(e, covariance + MatrixXd(variance.asDiagonal())) - log_density(e, covariance) + open.log_prior();
     if (gain > 0.0) out.emplace_back(gain, static_cast<int>(k));
   }
   std::sort(out.rbegin(), out.rend());
@@ -106,9 +110,8 @@ OpenedEvidence scored_with_openings(const Inference& plain, LawSystem& system, c
       const double prior = system.log_prior;
       for (std::size_t k = 0; k < count; ++k) {
         const OpenRows& open = modes[static_cast<std::size_t>(gains[k].second)];
-        for (std::size_t r = 0; r < open.rows.size(); ++r)
-          system.sigma(open.rows[r], open.rows[r]) += open.variance[static_cast<Index>(r)];
-        system.log_prior += log_prior_of_open();
+        for (std::size_t r = 0; r < open.rows.size(); ++r) system.sigma(open.rows[r], open.rows[r]) += open.variance[r];
+        system.log_prior += open.log_prior();
       }
       LawEvidence evidence;
       if (const OneLaw law(system); law.sound()) evidence = law.scored(hypothesis, out.evidence.tau);
@@ -119,10 +122,12 @@ OpenedEvidence scored_with_openings(const Inference& plain, LawSystem& system, c
         continue;
       }
       out.evidence = std::move(evidence);
-      std::vector<int> now;
-      for (std::size_t k = 0; k < count; ++k) now.push_back(modes[static_cast<std::size_t>(gains[k].second)].mode);
-      out.opened.insert(out.opened.end(), now.begin(), now.end());
-      std::erase_if(modes, [&](const OpenRows& m) { return std::find(now.begin(), now.end(), m.mode) != now.end(); });
+      for (std::size_t k = 0; k < count; ++k) {
+        OpenRows& open = modes[static_cast<std::size_t>(gains[k].second)];
+        out.opened.insert(out.opened.end(), open.modes.begin(), open.modes.end());
+        open.rows.clear();
+      }
+      std::erase_if(modes, [](const OpenRows& m) { return m.rows.empty(); });
     }
   }
   return out;

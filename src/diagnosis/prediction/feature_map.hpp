@@ -18,7 +18,7 @@ namespace twindeck::diagnosis {
 /// Standard deviations of the element scatter (small errors of every model), and floors of identification errors.
 struct ScatterOptions {
   double element_stiffness = 0.03, element_mass = 0.02, node_mass = 0.02, stay_stiffness = 0.03, stay_pull = 0.10, gain = 0.01,
-         support_stiffness = 0.05;  ///< of each bearing or foundation: what EN 1337-3 accepts, 20 %, is four deviations
+         support_stiffness = 0.03;  ///< of each bearing or foundation, as of an element
   double frequency_floor = 0.001, damping_floor = 0.05, shape_floor = 0.01;  ///< relative; of the shape's largest value
   double load_model = 0.10;  ///< of RMS values, on ln: uncertainty of a simple load model
   double model_form =
