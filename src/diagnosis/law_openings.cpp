@@ -32,18 +32,23 @@ std::vector<OpenRows> modes_that_may_open(const Inference& plain, const LawSyste
     const MeasuredMode& mode = map.measured_modes()[m];
     if (mode.real_rows.size() < 2) continue;  // no shape tells it from others
     const VectorXd all = variance_of_open(map, mode);
-    OpenRows& open = by_name[{map.features().conditions[static_cast<std::size_t>(mode.condition)].state, mode.label}];
-    open.modes.push_back(static_cast<int>(m));
+    OpenRows here{{static_cast<int>(m)}, {}, {}};
+    bool is_open = true;  // already, or set aside: all its rows are; free scales make some rows of any shape as wide
     for (std::size_t at = 0; at < plain.training().size(); ++at) {
-      const double variance = all[plain.training()[at]], known = system.sigma(static_cast<Index>(at), static_cast<Index>(at));
-      if (variance <= 0.0 || known > variance) continue;  // it is open already, or set aside
-      open.rows.push_back(static_cast<int>(at));
-      open.variance.push_back(variance);
+      const double variance = all[plain.training()[at]];
+      if (variance <= 0.0) continue;
+      here.rows.push_back(static_cast<int>(at));
+      here.variance.push_back(variance);
+      is_open = is_open && system.sigma(static_cast<Index>(at), static_cast<Index>(at)) > variance;
     }
+    if (is_open) continue;
+    OpenRows& open = by_name[{map.features().conditions[static_cast<std::size_t>(mode.condition)].state, mode.label}];
+    open.modes.insert(open.modes.end(), here.modes.begin(), here.modes.end());
+    open.rows.insert(open.rows.end(), here.rows.begin(), here.rows.end());
+    open.variance.insert(open.variance.end(), here.variance.begin(), here.variance.end());
   }
   std::vector<OpenRows> out;
-  for (auto& [name, open] : by_name)
-    if (!open.rows.empty()) out.push_back(std::move(open));
+  for (auto& [name, open] : by_name) out.push_back(std::move(open));
   return out;
 }
 
