@@ -205,8 +205,7 @@ void FeatureMap::list_nuisances(const ScatterOptions& scatter) {
   for (const auto& [channel, used] : channels)
     add(Nuisance::Kind::gain, channel, "channel:" + features_.channels[static_cast<std::size_t>(channel)] + " gain", 0.0,
         scatter.fine * scatter.gain);
-  // Structural damping is not computed by any model: ln zeta about 0.5 %, a factor e wide.
-  for (std::size_t i = 0; i < damping_modes_.size(); ++i)
+  for (std::size_t i = 0; i < damping_modes_.size(); ++i)  // computed by no model: ln zeta about 0.5 %, a factor e wide
     add(Nuisance::Kind::mode_damping, static_cast<int>(i), "mode " + damping_modes_[i] + " structural damping", std::log(0.5),
         1.0, -kFree, kFree);
   for (const auto& [level, used] : levels) {

@@ -125,32 +125,27 @@ TEST(CausesOfStiffness, AFactorScalesWhatTheParameterHasMadeOfItsPart) {
 TEST(CausesOfStiffness, AFactorScalesABearingWithItsOwnError) {
   // The last spring is a bearing 15 % stiffer than the model says: with a factor of 0.3 it has 0.3 times that.
   const MatrixXd bearing = springs_in_a_row((VectorXd(5) << 0, 0, 0, 0, 2.2e6).finished());
-  FourMasses four([&](diagnosis::Places& places) {
-    Place place;
-    place.id = "support:S";
-    place.stiffness = diagnosis::Symmetric(bearing.sparseView());
-    place.attributes = {{"f_high", 30.0}};
-    places.sets["supports"] = {place};
-  });
+  const Place place{"support:S", {}, diagnosis::Symmetric(bearing.sparseView()), {}, {}, {{"f_high", 30.0}}, {}};
+  FourMasses four([&](diagnosis::Places& places) { places.sets["supports"] = {place}; });
   const HandMade factor("scale.stiffness", {{"factor", 0.3}}, {four.model.place("supports", "support:S")});
   const VectorXd hertz = dense_hertz(four.k + (1.15 * 0.3 - 1.0) * bearing, four.m);
   four.model.add_frequencies(hertz);
   const diagnosis::FeatureMap map = four.model.map();
   VectorXd x = VectorXd::Zero(std::ssize(map.nuisances()));
-  Index own = -1;
-  for (Index j = 0; j < x.size(); ++j)
-    if (map.nuisances()[static_cast<std::size_t>(j)].name == "support:S stiffness") own = j;
-  ASSERT_GE(own, 0);
-  EXPECT_DOUBLE_EQ(map.nuisances()[static_cast<std::size_t>(own)].deviation, 0.03);
+  const auto& all = map.nuisances();
+  const Index own = std::ranges::find(all, "support:S stiffness", &diagnosis::Nuisance::name) - all.begin();
+  ASSERT_LT(own, x.size());
+  EXPECT_DOUBLE_EQ(all[static_cast<std::size_t>(own)].deviation, 0.03);
   x[own] = 5.0;
   const auto p = map.predict(map.base(x), {factor.cause()}, true);
   ASSERT_TRUE(p.valid);
   EXPECT_LT((p.g - VectorXd(hertz.array().log())).cwiseAbs().maxCoeff(), kSameFrequency);
-  VectorXd up = x, down = x;
-  up[own] += 1e-4;
-  down[own] -= 1e-4;
-  const VectorXd slope =
-      (map.predict(map.base(up), {factor.cause()}, false).g - map.predict(map.base(down), {factor.cause()}, false).g) / 2e-4;
+  const auto at = [&](double moved) {
+    VectorXd there = x;
+    there[own] += moved;
+    return map.predict(map.base(there), {factor.cause()}, false).g;
+  };
+  const VectorXd slope = (at(1e-4) - at(-1e-4)) / 2e-4;
   EXPECT_LT((p.jacobian.col(own) - slope).norm(), 1e-6 * slope.norm());
 }
 
