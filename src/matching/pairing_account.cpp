@@ -35,8 +35,8 @@ std::vector<int> same_shapes(const Eigen::MatrixXd& mac) {
   return at;
 }
 
-/// The same under one factor, which leaves modes in their order: of the computed modes of that shape the lowest above the last
-/// one taken. At few channels several modes have one shape, of which the assignment above takes any.
+/// Pairs for one factor on all frequencies, which keeps the order of the modes. At few channels several computed modes have the
+/// shape of a measured one. This takes the lowest of them that lies above the pair before; the assignment above takes any.
 std::vector<int> same_shapes_in_order(const Eigen::MatrixXd& mac, const Eigen::VectorXd& measured_Hz) {
   std::vector<int> order(static_cast<std::size_t>(mac.cols())), at(order.size(), -1);
   std::iota(order.begin(), order.end(), 0);

@@ -44,8 +44,9 @@ double size_of(const PairedMode& mode, const ModelModes& modes, const VectorXd& 
   return norm > kAtRest * kAtRest * largest ? along / norm : 0.0;
 }
 
-/// Shapes of a structure that its mode takes up, for each base mode k of which they hold a part: sum_n C_kn psi_n / (w_q² -
-/// w_n²) (n_channels × n_modes of the base).
+/// What a mode's shape gains if the stiffness couples it to base mode k: its structure's other modes psi_n, each by the part
+/// C_kn of base mode k that it holds and by its distance in frequency. Column k is sum_n C_kn psi_n / (w_q² - w_n²), q the mode
+/// itself (n_channels × n_modes of the base).
 MatrixXd taken_up(const ModelModes& modes, Index own) {
   MatrixXd out = MatrixXd::Zero(modes.shapes.rows(), modes.along.rows());
   for (Index n = 0; n < modes.omega_rad_s.size(); ++n)
