@@ -146,24 +146,26 @@ void weigh_fit(const LawSetting& setting, const LawSearch& search, LawAccount& a
   account.scored = true;
 }
 
-/// A set with its causes in the model, fitted from each start.
+/// A set with its causes in the model, fitted from each start of the parameters. One factor starts from either side of one: the
+/// base may have taken it up into a parameter of its like, so that it looks as if the others had the reverse.
 void refine_by_law(const LawSetting& setting, const LawSearch& search, LawAccount& account,
                    const std::vector<VectorXd>& starts) {
-  std::vector<Cause> start = search.base.causes;
-  start.insert(start.end(), account.causes.begin(), account.causes.end());
-  const VectorXd tau = account.evidence.tau;
-  VectorXd found_before;
-  for (const VectorXd& x : starts) {
-    Fit with = setting.informed.fit(start, x);
-    if (!with.made()) continue;
-    if (found_before.size() > 0 && (with.map.x - found_before).norm() < kOneFit) continue;
-    found_before = with.map.x;
-    weigh_fit(setting, search, account, tau, std::move(with));
+  std::vector<std::vector<Cause>> causes = {search.base.causes};
+  causes[0].insert(causes[0].end(), account.causes.begin(), account.causes.end());
+  if (account.members.size() == 1 && account.across.size() > 0) {
+    causes.push_back(causes[0]);
+    causes[1].back().a = account.across;
   }
-  if (account.members.size() > 1 || account.across.size() == 0) return;
-  start.back().a = account.across;
-  Fit with = setting.informed.fit(start, starts.front());
-  if (with.made()) weigh_fit(setting, search, account, tau, std::move(with));
+  const VectorXd tau = account.evidence.tau;
+  std::vector<VectorXd> found;
+  for (const std::vector<Cause>& start : causes)
+    for (const VectorXd& x : starts) {
+      Fit with = setting.informed.fit(start, x);
+      const auto is_same = [&](const VectorXd& before) { return (with.map.x - before).norm() < kOneFit; };
+      if (!with.made() || std::any_of(found.begin(), found.end(), is_same)) continue;
+      found.push_back(with.map.x);
+      weigh_fit(setting, search, account, tau, std::move(with));
+    }
 }
 
 /// Fits the leading accounts anew without the modes that they hold for none of the model's, which have bent the fit.
@@ -372,7 +374,7 @@ LawSearch search_by_law(const LawSetting& setting, const Fit& base) {
   const auto n = static_cast<Index>(setting.plain.map().nuisances().size());
   const std::vector<VectorXd> starts = {out.base.map.x.head(n), {}};
   std::set<int> done;
-  for (int round = 0; round < kLeadingRounds && !done.contains(out.accounts.front().members.front()); ++round) {
+  for (int round = 0; round < kLeadingRounds; ++round) {  // what a round has fitted may put others among the leading
     const std::vector<LawAccount*> these = leading_accounts(out, done);
     if (these.empty()) break;
     parallel_for_told(
