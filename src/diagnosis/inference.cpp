@@ -59,6 +59,21 @@ struct Magnitudes {
   }
 };
 
+/// Change of rows by a small step. A measured mode that is another of the model's after the step has jumped there: its rows
+/// tell no slope.
+VectorXd change_of_same_modes(const FeatureMap& map, const Prediction& from, const Prediction& to) {
+  VectorXd change = change_between(from, to);
+  for (std::size_t m = 0; m < from.paired.size(); ++m) {
+    if (from.paired[m] == to.paired[m]) continue;
+    const MeasuredMode& mode = map.measured_modes()[m];
+    for (const int row : {mode.frequency, mode.damping})
+      if (row >= 0) change[row] = 0.0;
+    change(mode.real_rows).setZero();
+    change(mode.imag_rows).setZero();
+  }
+  return change;
+}
+
 }  // namespace
 
 Inference::Inference(const FeatureMap& map, const std::vector<std::unique_ptr<Candidate>>& candidates)
@@ -85,13 +100,21 @@ MatrixXd Inference::slopes(const FeatureMap::Base& at, const std::vector<Cause>&
   const Candidate& candidate = *causes[which].candidate;
   MatrixXd out(here.g.size(), candidate.low.size());
   for (Index i = 0; i < candidate.low.size(); ++i) {
-    std::vector<Cause> moved = causes;
     const double range = candidate.high[i] - candidate.low[i];
     double step = kSlopeStep * range;
-    if (moved[which].a[i] + step > candidate.high[i]) step = -step;
-    moved[which].a[i] += step;
-    const Prediction p = map_.predict(at, moved, false);
-    out.col(i) = p.valid ? VectorXd(change_between(here, p) / step) : VectorXd(VectorXd::Zero(here.g.size()));
+    if (causes[which].a[i] + step > candidate.high[i]) step = -step;
+    const auto stepped = [&](double by) {
+      std::vector<Cause> moved = causes;
+      moved[which].a[i] += by;
+      return map_.predict(at, moved, false);
+    };
+    Prediction p = stepped(step);
+    if (p.valid && p.paired != here.paired)
+      if (Prediction back = stepped(-step); back.valid && back.paired == here.paired) {
+        p = std::move(back);
+        step = -step;
+      }
+    out.col(i) = p.valid ? VectorXd(change_of_same_modes(map_, here, p) / step) : VectorXd(VectorXd::Zero(here.g.size()));
   }
   return out;
 }

@@ -157,14 +157,14 @@ void widen_sizes(std::vector<EffectParameter>& parameters, double deviation) {
     const bool factor = p.name == "factor";
     const auto size = [&](double v) { return factor ? std::log(v) : v; };
     const auto back = [&](double z) { return factor ? std::exp(z) : z; };
-    const double z = size(p.value), low = size(p.low), high = size(p.high);
-    const auto end = [&](double of) {
-      if (of * z > 0.0) return z * std::exp(std::copysign(std::hypot(std::log(of / z), reach), std::abs(of) - std::abs(z)));
-      return z + std::copysign(std::hypot(of - z, reach * z), of - z);
-    };
+    const double z = size(p.value), low = std::min(size(p.low), z), high = std::max(size(p.high), z);
     if (!(z != 0.0) || !std::isfinite(z)) continue;
-    if (!p.at_low_bound) p.low = back(low == z ? z - std::abs(z) * reach : end(low));
-    if (!p.at_high_bound) p.high = back(high == z ? z + std::abs(z) * reach : end(high));
+    const auto end = [&](double of, double side) {
+      if (of * z > 0.0) return z * std::exp(std::copysign(std::hypot(std::log(of / z), reach), side * z));
+      return z + side * std::hypot(of - z, reach * z);
+    };
+    if (!p.at_low_bound) p.low = back(end(low, -1.0));
+    if (!p.at_high_bound) p.high = back(end(high, 1.0));
   }
 }
 

@@ -12,6 +12,7 @@
 #include "diagnosis/form_frame.hpp"
 #include "diagnosis/inference/one_verdict.hpp"
 #include "diagnosis/law_gain.hpp"
+#include "diagnosis/law_openings.hpp"
 #include "diagnosis/law_search.hpp"
 #include "diagnosis/size_of_a_cause.hpp"
 #include "diagnosis/splitting_measurement.hpp"
@@ -114,9 +115,7 @@ class ByLaw {
   [[nodiscard]] const Fit& fitted() const { return fitted_; }
   [[nodiscard]] const std::string& reason() const { return reason_; }
   [[nodiscard]] const LawEvidence& winner() const { return winner_; }
-  [[nodiscard]] bool opened(std::size_t mode) const {
-    return std::find(opened_.begin(), opened_.end(), static_cast<int>(mode)) != opened_.end();
-  }
+  [[nodiscard]] const std::vector<int>& opened() const { return opened_; }  ///< measured modes, as winner() holds them
 
   /// What the last fit says of the sizes may refuse the name.
   void refuse_sizes() {
@@ -266,8 +265,10 @@ class ByLaw {
     for (std::size_t c = 0; c < leader.members.size(); ++c)
       if (!is_model_error(leader.members[c])) changes.push_back(leader.causes[c]);
     Fit with;
+    const FeatureMap map = with_open(setting_.informed.map(), leader.opened);
     if (leader.scored)
-      with = fit_near(setting_.informed, changes, VectorXd((leader.refined() ? leader.with : search_.base).map.x.head(n)));
+      with = fit_near(Inference(map, setting_.informed.candidates()), changes,
+                      VectorXd((leader.refined() ? leader.with : search_.base).map.x.head(n)));
     if (!with.made()) {
       out_.verdict = Verdict::unknown;
       reason_ = "the best cause cannot be put into the model";
@@ -348,11 +349,13 @@ class ByLaw {
   std::string reason_;
 };
 
-/// Fits, intervals, residual test and gain at the level of the form error that the winning hypothesis has.
+/// Fits, intervals, residual test and gain at the level of the form error that the winning hypothesis has, with the modes open
+/// that it opens.
 void finish_by_law(const Inference& plain, const ByLaw& engine, const DiagnoseOptions& options, std::uint64_t seed,
                    Diagnosis& out) {
+  const FormLevel level{out.form->frequency.level, out.form->shape.level};
   out.with_form = std::make_shared<FeatureMap>(
-      with_form_error(plain.map(), out.before.base, out.before.all.g, {out.form->frequency.level, out.form->shape.level}));
+      with_open(with_form_error(plain.map(), out.before.base, out.before.all.g, level), engine.opened()));
   const FeatureMap& levelled = *out.with_form;
   const Inference inference(levelled, plain.candidates());
   const auto n = static_cast<Index>(plain.map().nuisances().size());
@@ -383,7 +386,8 @@ void add_open_modes(const FeatureMap& map, const ByLaw& engine, Diagnosis& out) 
   std::vector<std::string> modes;
   for (std::size_t m = 0; m < map.measured_modes().size(); ++m) {
     const MeasuredMode& mode = map.measured_modes()[m];
-    if (out.after.all.paired[m] >= 0 && !engine.opened(m)) continue;
+    const bool opened = std::find(engine.opened().begin(), engine.opened().end(), static_cast<int>(m)) != engine.opened().end();
+    if (out.after.all.paired[m] >= 0 && !opened) continue;
     modes.push_back(fmt::format(
         "{} ({:.4g} Hz{}{})", mode.label, mode.frequency_Hz, map.features().conditions.size() > 1 ? ", " : "",
         map.features().conditions.size() > 1 ? map.features().conditions[static_cast<std::size_t>(mode.condition)].name : ""));

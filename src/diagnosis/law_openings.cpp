@@ -91,12 +91,16 @@ std::vector<std::pair<double, int>> gains_of_opening(const LawSystem& system, co
 
 }  // namespace
 
-Fit fit_with_open(const Inference& inference, const std::vector<int>& modes, const std::vector<Cause>& causes,
-                  const VectorXd& start) {
-  FeatureMap map = inference.map();
+FeatureMap with_open(FeatureMap map, const std::vector<int>& modes) {
   VectorXd variance = VectorXd::Zero(map.values().size());
   for (const int m : modes) variance += variance_of_open(map, map.measured_modes()[static_cast<std::size_t>(m)]);
   map.add_covariance(variance.asDiagonal());
+  return map;
+}
+
+Fit fit_with_open(const Inference& inference, const std::vector<int>& modes, const std::vector<Cause>& causes,
+                  const VectorXd& start) {
+  const FeatureMap map = with_open(inference.map(), modes);
   return Inference(map, inference.candidates()).fit(causes, start);
 }
 

@@ -22,7 +22,10 @@ struct OpenedEvidence {
 [[nodiscard]] OpenedEvidence scored_with_openings(const Inference& plain, LawSystem& system, const LawHypothesis& hypothesis,
                                                   const Eigen::VectorXd& start);
 
-/// A fit in which the rows of some measured modes are as open as those of none of the model's.
+/// The rows of some measured modes as open as those of none of the model's.
+[[nodiscard]] FeatureMap with_open(FeatureMap map, const std::vector<int>& modes);
+
+/// A fit in which they are.
 [[nodiscard]] Fit fit_with_open(const Inference& inference, const std::vector<int>& modes, const std::vector<Cause>& causes,
                                 const Eigen::VectorXd& start);
 

@@ -97,5 +97,20 @@ TEST(EffectParameters, OfACauseWithoutUnknownsAreNone) {
   EXPECT_TRUE(effect_parameters(inference, fit, 0).empty());
 }
 
+TEST(WidenSizes, HoldsTheValueAndReachesToBothSidesOfIt) {
+  // By hand: ln of |ln 0.2| and of 3000 moves by 1.6449 * 0.25, whichever side of the value the ends were rounded to.
+  const double reach = kNinetyFive * 0.25;
+  for (const double rounding : {-1e-12, 0.0, 1e-12}) {
+    std::vector<EffectParameter> sizes(2);
+    sizes[0] = {"factor", "-", 0.2, 0.2 + rounding, 0.2 + rounding};
+    sizes[1] = {"mass", "kg", 3000.0, 3000.0 + rounding, 3000.0 + rounding};
+    diagnosis::widen_sizes(sizes, 0.25);
+    EXPECT_NEAR(sizes[0].low, std::exp(std::log(0.2) * std::exp(reach)), 1e-5);
+    EXPECT_NEAR(sizes[0].high, std::exp(std::log(0.2) * std::exp(-reach)), 1e-5);
+    EXPECT_NEAR(sizes[1].low, 3000.0 * std::exp(-reach), 0.5);
+    EXPECT_NEAR(sizes[1].high, 3000.0 * std::exp(reach), 0.5);
+  }
+}
+
 }  // namespace
 }  // namespace twindeck::tests
