@@ -45,9 +45,9 @@ template <typename Matrix, typename OnePlace>
 struct Assembly {
   Matrix stiffness, mass;
   const std::map<std::string, std::vector<OnePlace>>& sets;
-  const VectorXd& theta;                             ///< values of the parameters
-  const std::vector<int> columns;                    ///< of the reduced basis that are used
-  std::map<const OnePlace*, double> own_error = {};  ///< of bearings, foundations and stays, of their stiffness
+  const VectorXd& theta;                                              ///< values of the parameters
+  const std::vector<int> columns;                                     ///< of the reduced basis that are used
+  std::map<std::pair<const OnePlace*, bool>, double> own_error = {};  ///< of a place's mass, else of its stiffness
 
   /// The place of a candidate, in the set of its hypothesis or else in any: a support and its foundation have one name.
   [[nodiscard]] const OnePlace* find(const Candidate& candidate, std::size_t which) const {
@@ -74,20 +74,18 @@ struct Assembly {
     law.each(whole, theta, [&](double times, const Part& part) { add(to, amount * times, part); });
   }
   void scatter(const FeatureMap& map, const VectorXd& x) {
-    const auto place = [&](const char* set, int i) -> const OnePlace& { return sets.at(set)[static_cast<std::size_t>(i)]; };
     for (std::size_t j = 0; j < map.nuisances().size(); ++j) {
       const Nuisance& v = map.nuisances()[j];
+      if (v.kind != Nuisance::Kind::place) continue;
       const double amount = v.deviation * x[static_cast<Index>(j)];
-      if (v.kind == Nuisance::Kind::element_stiffness) add(stiffness, amount, place("zones", v.index).stiffness);
-      if (v.kind == Nuisance::Kind::element_mass) add(mass, amount, place("zones", v.index).mass);
-      if (v.kind == Nuisance::Kind::node_mass) add(mass, amount, place("nodes", v.index).mass);
-      for (const auto& [kind, set] : {std::pair(Nuisance::Kind::stay, "stays"), std::pair(Nuisance::Kind::support, "supports"),
-                                      std::pair(Nuisance::Kind::foundation, "foundations")}) {
-        if (v.kind != kind) continue;
-        add(stiffness, amount, place(set, v.index).stiffness);
-        own_error[&place(set, v.index)] = amount;
-      }
+      const OnePlace& place = sets.at(v.set)[static_cast<std::size_t>(v.index)];
+      add(v.of_mass ? mass : stiffness, amount, v.of_mass ? place.mass : place.stiffness);
+      own_error[{&place, v.of_mass}] = amount;
     }
+  }
+  [[nodiscard]] double own_error_of(const OnePlace& place, bool of_mass) const {
+    const auto own = own_error.find({&place, of_mass});
+    return own == own_error.end() ? 0.0 : own->second;
   }
   void apply(const Cause& cause) {
     const Candidate& candidate = *cause.candidate;
@@ -101,10 +99,12 @@ struct Assembly {
       const auto value = [&](const char* name) { return candidate.value(action.number.at(name), cause.a); };
       if (action.kind == "scale.stiffness") {
         add(stiffness, value("factor") - 1.0, place->stiffness, place->stiffness_law);
-        if (const auto own = own_error.find(place); own != own_error.end())
-          add(stiffness, (value("factor") - 1.0) * own->second, place->stiffness);
+        add(stiffness, (value("factor") - 1.0) * own_error_of(*place, false), place->stiffness);
       }
-      if (action.kind == "scale.mass") add(mass, value("factor") - 1.0, place->mass, place->mass_law);
+      if (action.kind == "scale.mass") {
+        add(mass, value("factor") - 1.0, place->mass, place->mass_law);
+        add(mass, (value("factor") - 1.0) * own_error_of(*place, true), place->mass);
+      }
       if (action.kind == "mass.add")
         for (Index d = 0; d < place->directions.cols(); ++d)
           add_outer(mass, value("mass"), direction(*place, d), direction(*place, d));
@@ -121,7 +121,7 @@ struct Assembly {
   void move(const OnePlace& place, double position) {
     add(stiffness, -1.0, place.stiffness, place.stiffness_law);
     for (const auto& [own, amount] : own_error)
-      if (own->id == place.id) add(stiffness, -amount, own->stiffness);
+      if (!own.second && own.first->id == place.id) add(stiffness, -amount, own.first->stiffness);
     const double ratio = place.stiffness_law.ratio.value(theta);
     const auto [station, part] = on_line(place.attributes, position);
     const Index springs = place.directions.cols() / static_cast<Index>(place.attributes.at("stations"));

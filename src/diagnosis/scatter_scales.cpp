@@ -18,9 +18,7 @@ using Eigen::VectorXd;
 
 constexpr double kReach = 1.609;         // ln 5
 constexpr double kFreeDeviation = 10.0;  // of a shape's own scale, as in the fit
-constexpr std::array kElementScatter = {Nuisance::Kind::element_stiffness, Nuisance::Kind::element_mass,
-                                        Nuisance::Kind::node_mass,         Nuisance::Kind::stay,
-                                        Nuisance::Kind::stay_pull,         Nuisance::Kind::gain};
+constexpr std::array kElementScatter = {Nuisance::Kind::place, Nuisance::Kind::stay_pull, Nuisance::Kind::gain};
 
 /// The rows' law with the logarithms of its scales as what is free: one for each type that occurs, the last for element
 /// scatter.

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <set>
 
 #include "core/error.hpp"
 #include "diagnosis/features/shape_turn.hpp"
@@ -170,28 +171,31 @@ void FeatureMap::list_nuisances(const ScatterOptions& scatter) {
     if (found == model_.sets.end()) return;
     for (std::size_t i = 0; i < found->second.size(); ++i) use(static_cast<int>(i), found->second[i]);
   };
-  each("zones", [&](int i, const ReducedPlace& p) {
-    add(Nuisance::Kind::element_stiffness, i, p.id + " stiffness", 0.0, scatter.fine * scatter.element_stiffness);
-    add(Nuisance::Kind::element_mass, i, p.id + " mass", 0.0, scatter.fine * scatter.element_mass);
-  });
-  each("nodes", [&](int i, const ReducedPlace& p) {
-    if (p.mass.size() > 0) add(Nuisance::Kind::node_mass, i, p.id + " mass", 0.0, scatter.fine * scatter.node_mass);
-  });
-  std::map<std::string, bool> stay_rows;
-  for (const Row& row : features_.rows)
-    if (row.type == RowType::stay_frequency) stay_rows[row.stay] = true;
-  each("stays", [&](int i, const ReducedPlace& p) {
-    add(Nuisance::Kind::stay, i, p.id + " stiffness", 0.0, scatter.fine * scatter.stay_stiffness);
-    if (stay_rows.contains(p.id.substr(5))) add(Nuisance::Kind::stay_pull, i, p.id + " pull", 0.0, scatter.stay_pull);
-  });
-  const auto bearing = [&](Nuisance::Kind kind) {
-    return [&, kind](int i, const ReducedPlace& p) {  // what stands for a rigid support has no size of its own
-      if (const auto high = p.attributes.find("f_high"); high == p.attributes.end() || high->second > 1.0)
-        add(kind, i, p.id + " stiffness", 0.0, scatter.fine * scatter.support_stiffness);
-    };
+  const auto add_places = [&](const std::string& set, bool mass, double deviation, auto has) {
+    each(set, [&](int i, const ReducedPlace& p) {
+      if (!has(p)) return;
+      add(Nuisance::Kind::place, i, p.id + (mass ? " mass" : " stiffness"), 0.0, scatter.fine * deviation);
+      nuisances_.back().set = set;
+      nuisances_.back().of_mass = mass;
+    });
   };
-  each("supports", bearing(Nuisance::Kind::support));
-  each("foundations", bearing(Nuisance::Kind::foundation));
+  const auto any = [](const ReducedPlace&) { return true; };
+  add_places("zones", false, scatter.element_stiffness, any);
+  add_places("zones", true, scatter.element_mass, any);
+  add_places("nodes", true, scatter.node_mass, [](const ReducedPlace& p) { return p.mass.size() > 0; });
+  add_places("stays", false, scatter.stay_stiffness, any);
+  const auto is_flexible = [](const ReducedPlace& p) {  // what stands for a rigid support has no size of its own
+    const auto high = p.attributes.find("f_high");
+    return high == p.attributes.end() || high->second > 1.0;
+  };
+  add_places("supports", false, scatter.support_stiffness, is_flexible);
+  add_places("foundations", false, scatter.support_stiffness, is_flexible);
+  std::set<std::string> stay_rows;
+  for (const Row& row : features_.rows)
+    if (row.type == RowType::stay_frequency) stay_rows.insert("stay:" + row.stay);
+  each("stays", [&](int i, const ReducedPlace& p) {
+    if (stay_rows.contains(p.id)) add(Nuisance::Kind::stay_pull, i, p.id + " pull", 0.0, scatter.stay_pull);
+  });
   std::map<int, bool> channels;
   std::map<int, bool> levels;
   for (const Row& row : features_.rows) {
@@ -239,6 +243,14 @@ void FeatureMap::set_values(const Eigen::VectorXd& values) {
     if (mode.frequency >= 0) mode.frequency_Hz = std::exp(values_[mode.frequency]);
 }
 
+const ReducedPlace& FeatureMap::place_of(const Nuisance& v) const {
+  return model_.sets.at(v.set)[static_cast<std::size_t>(v.index)];
+}
+
+const ReducedMatrix& FeatureMap::scattered(const Nuisance& v) const {
+  return v.of_mass ? place_of(v).mass : place_of(v).stiffness;
+}
+
 FeatureMap::Base FeatureMap::base(const Eigen::VectorXd& x) const {
   Base base;
   base.x = x;
@@ -254,15 +266,8 @@ FeatureMap::Base FeatureMap::base(const Eigen::VectorXd& x) const {
     const Nuisance& v = nuisances_[j];
     const double amount = v.deviation * x[static_cast<Index>(j)];
     if (amount == 0.0) continue;
-    const auto place = [&](const char* set) -> const ReducedPlace& {
-      return model_.sets.at(set)[static_cast<std::size_t>(v.index)];
-    };
-    if (v.kind == Nuisance::Kind::element_stiffness) base.stiffness_parts.emplace_back(amount, &place("zones").stiffness);
-    if (v.kind == Nuisance::Kind::element_mass) base.mass_parts.emplace_back(amount, &place("zones").mass);
-    if (v.kind == Nuisance::Kind::node_mass) base.mass_parts.emplace_back(amount, &place("nodes").mass);
-    if (v.kind == Nuisance::Kind::stay) base.stiffness_parts.emplace_back(amount, &place("stays").stiffness);
-    if (v.kind == Nuisance::Kind::support) base.stiffness_parts.emplace_back(amount, &place("supports").stiffness);
-    if (v.kind == Nuisance::Kind::foundation) base.stiffness_parts.emplace_back(amount, &place("foundations").stiffness);
+    if (v.kind != Nuisance::Kind::place) continue;
+    (v.of_mass ? base.mass_parts : base.stiffness_parts).emplace_back(amount, &scattered(v));
   }
   const Index c = model_.common;
   const auto sum =

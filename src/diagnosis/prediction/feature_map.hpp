@@ -31,24 +31,14 @@ struct ScatterOptions {
 
 /// A nuisance unknown in units of its prior: mean 0, deviation 1.
 struct Nuisance {
-  enum class Kind {
-    parameter,
-    element_stiffness,
-    element_mass,
-    node_mass,
-    stay,
-    stay_pull,
-    support,
-    foundation,
-    gain,
-    mode_damping,
-    level
-  };
+  enum class Kind { parameter, place, stay_pull, gain, mode_damping, level };
   Kind kind = Kind::parameter;
-  int index = 0;     ///< of the parameter, place, channel; of `damping_modes`; of the level
+  int index = 0;     ///< of the parameter, of the place in its set, channel; of `damping_modes`; of the level
   std::string name;  ///< "E_s", "element:17 stiffness", "mode 3 damping", for tables
   double mean = 0.0, deviation = 1.0;
-  double lower, upper;  ///< hard bounds in prior units (parameters), ± infinity otherwise
+  double lower, upper;   ///< hard bounds in prior units (parameters), ± infinity otherwise
+  std::string set = {};  ///< of a place: "zones", "nodes", "stays", "supports" or "foundations" …
+  bool of_mass = false;  ///< … whose mass, else stiffness, is off by a factor of its own
 };
 
 /// A measured mode of one condition.
@@ -103,6 +93,10 @@ class FeatureMap {
     bool keeps = false;  ///< states with causes are kept too: for the same causes predicted again
   };
   [[nodiscard]] Base base(const Eigen::VectorXd& x) const;
+
+  /// Of an unknown of a place: the place, and its matrix that the unknown scales.
+  [[nodiscard]] const ReducedPlace& place_of(const Nuisance& v) const;
+  [[nodiscard]] const ReducedMatrix& scattered(const Nuisance& v) const;
   /// Stiffness and mass at a base in some of the reduced model's coordinates, the common ones first (n × n each). Most of the
   /// others belong to causes at other locations and are not used.
   [[nodiscard]] std::pair<Eigen::MatrixXd, Eigen::MatrixXd> matrices(const Base& base, const std::vector<int>& columns) const;

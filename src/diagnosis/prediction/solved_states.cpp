@@ -149,9 +149,6 @@ const StateStore::Changes& Predictor::changes(const SolvedState& state) const {
   const ReducedModel& model = map_.model();
   for (std::size_t j = 0; j < map_.nuisances().size(); ++j) {
     const Nuisance& v = map_.nuisances()[j];
-    const auto place = [&](const char* set) -> const ReducedPlace& {
-      return model.sets.at(set)[static_cast<std::size_t>(v.index)];
-    };
     MatrixChange dk, dm;
     const auto add = [&](MatrixChange& to, double a, const ReducedMatrix& from) {
       if (from.is_local() && to.empty()) {  // multiplied out where it is used: a thousand dense ones would fill the memory
@@ -168,18 +165,8 @@ const StateStore::Changes& Predictor::changes(const SolvedState& state) const {
         if (const double a = term.coefficient.derivative(base_.theta, v.index); a != 0.0) add(dk, v.deviation * a, term.matrix);
       for (const auto& term : model.mass)
         if (const double a = term.coefficient.derivative(base_.theta, v.index); a != 0.0) add(dm, v.deviation * a, term.matrix);
-    } else if (v.kind == Nuisance::Kind::element_stiffness) {
-      add(dk, v.deviation, place("zones").stiffness);
-    } else if (v.kind == Nuisance::Kind::element_mass) {
-      add(dm, v.deviation, place("zones").mass);
-    } else if (v.kind == Nuisance::Kind::node_mass) {
-      add(dm, v.deviation, place("nodes").mass);
-    } else if (v.kind == Nuisance::Kind::stay) {
-      add(dk, v.deviation, place("stays").stiffness);
-    } else if (v.kind == Nuisance::Kind::support) {
-      add(dk, v.deviation, place("supports").stiffness);
-    } else if (v.kind == Nuisance::Kind::foundation) {
-      add(dk, v.deviation, place("foundations").stiffness);
+    } else if (v.kind == Nuisance::Kind::place) {
+      add(v.of_mass ? dm : dk, v.deviation, map_.scattered(v));
     } else {
       continue;
     }

@@ -200,16 +200,13 @@ void Predictor::add_change(const ReducedPlace& place, double change, bool mass, 
   law.each_slope(whole, base_.theta, [&](int p, double slope, const ReducedMatrix& part) {
     followed_.push_back({p, change * slope, &part, mass, {}});
   });
-  if (mass) return;
   for (std::size_t j = 0; j < map_.nuisances().size(); ++j) {
     const Nuisance& v = map_.nuisances()[j];
-    const bool bearing = v.kind == Nuisance::Kind::support;
-    if (!bearing && v.kind != Nuisance::Kind::foundation && v.kind != Nuisance::Kind::stay) continue;
-    const char* set = bearing ? "supports" : v.kind == Nuisance::Kind::stay ? "stays" : "foundations";
-    const ReducedPlace& own = map_.model().sets.at(set)[static_cast<std::size_t>(v.index)];
-    if (&own != &place && !(bearing && own.id == place.id && place.attributes.contains("stations"))) continue;
-    to += change * v.deviation * base_.x[static_cast<Index>(j)] * sliced(own.stiffness, columns_, to.rows());
-    followed_.push_back({-1, change, &own.stiffness, mass, {}, static_cast<int>(j)});
+    if (v.kind != Nuisance::Kind::place || v.of_mass != mass) continue;
+    const ReducedPlace& own = map_.place_of(v);
+    if (&own != &place && !(own.id == place.id && place.attributes.contains("stations"))) continue;
+    to += change * v.deviation * base_.x[static_cast<Index>(j)] * sliced(map_.scattered(v), columns_, to.rows());
+    followed_.push_back({-1, change, &map_.scattered(v), mass, {}, static_cast<int>(j)});
   }
 }
 

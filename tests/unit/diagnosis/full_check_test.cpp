@@ -240,26 +240,26 @@ TEST(FullCheck, HasTheScatterOfTheFit) {
     places.sets["stays"] = {on_dof("stay:A", 1, 0, 5e5)};
   });
   const diagnosis::FeatureMap map = nodes.model.map();
-  using Kind = diagnosis::Nuisance::Kind;
   MatrixXd k = nodes.stiffness, m = nodes.mass;
   VectorXd x(std::ssize(map.nuisances()));
-  std::map<Kind, int> seen;
+  std::map<std::string, int> seen;
   for (std::size_t j = 0; j < map.nuisances().size(); ++j) {
     const auto& v = map.nuisances()[j];
     const double own = x[static_cast<Eigen::Index>(j)] = 1.0 + 0.3 * static_cast<double>(j), by = own * v.deviation;
-    ++seen[v.kind];
-    if (v.kind == Kind::element_stiffness)
+    const std::string of = v.set + (v.of_mass ? " mass" : "");
+    ++seen[of];
+    if (of == "zones")
       k += by * (v.index == 0 ? MatrixXd(7e5 * squared(nodes.axis(0, 0))) : MatrixXd(9e5 * squared(nodes.axis(1, 1))));
-    if (v.kind == Kind::element_mass)
+    if (of == "zones mass")
       m += by * (v.index == 0 ? MatrixXd(300.0 * squared(nodes.axis(0, 0))) : MatrixXd(400.0 * squared(nodes.axis(1, 1))));
-    if (v.kind == Kind::stay) k += by * 5e5 * squared(nodes.axis(1, 0));
-    if (v.kind == Kind::node_mass)
+    if (of == "stays") k += by * 5e5 * squared(nodes.axis(1, 0));
+    if (of == "nodes mass")
       for (int d = 0; d < 3; ++d) m += by * 1000.0 * squared(nodes.axis(v.index, d));
   }
-  EXPECT_EQ(seen[Kind::element_stiffness], 2);
-  EXPECT_EQ(seen[Kind::element_mass], 2);
-  EXPECT_EQ(seen[Kind::node_mass], 2);
-  EXPECT_EQ(seen[Kind::stay], 1);
+  EXPECT_EQ(seen["zones"], 2);
+  EXPECT_EQ(seen["zones mass"], 2);
+  EXPECT_EQ(seen["nodes mass"], 2);
+  EXPECT_EQ(seen["stays"], 1);
   nodes.expect(nodes.check({}, 6, x), k, m);
 }
 

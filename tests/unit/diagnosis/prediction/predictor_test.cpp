@@ -304,7 +304,7 @@ TEST(Slopes, OfRecordsByStiffnessAreThoseOfCentralDifferences) {
 TEST(Slopes, OfRecordsByMasses) {
   const auto model = records();
   const diagnosis::FeatureMap map = model->map();
-  EXPECT_LT(worst_slope_by(map, somewhere(map), {Nuisance::Kind::node_mass}), 1e-4);
+  EXPECT_LT(worst_slope_by(map, somewhere(map), {Nuisance::Kind::place}), 1e-4);
 }
 
 TEST(Slopes, OfRecordsByStructuralDamping) {
