@@ -181,13 +181,20 @@ class ByLaw {
     }
   }
 
-  /// A leading set that leaves more than a part of what changed is no account of it, though nothing else may come nearer.
+  /// A leading set that leaves more than a part of what changed is no account of it, though nothing else may come nearer. Nor
+  /// is a cause whose size may be none.
   void refuse_partial() {
     if (out_.verdict != Verdict::named && out_.verdict != Verdict::ambiguous) return;
-    const double left = left_of_change(search_.accounts.front());
-    if (!(left > kMostLeft)) return;
+    const LawAccount& leader = search_.accounts.front();
+    const double left = left_of_change(leader);
+    if (left > kMostLeft)
+      reason_ = fmt::format("the best cause leaves {:.0f} % of what changed", 100.0 * left);
+    else if (leader.refined() && leader.with.causes.size() == 1 &&
+             may_be_zero(effect_parameters(setting_.informed, leader.with, 0), *leader.with.causes.front().candidate))
+      reason_ = "the size of the best cause cannot be told from zero";
+    else
+      return;
     out_.verdict = without_a_cause();
-    reason_ = fmt::format("the best cause leaves {:.0f} % of what changed", 100.0 * left);
   }
 
   [[nodiscard]] std::string reason_of_verdict() const {
