@@ -48,8 +48,7 @@ bool is_settled(const Cluster& mode, const ModeDeviation& deviation, const Ident
   const double f = mode.frequency_Hz, zeta = std::max(mode.damping_ratio, 1e-6), relative = deviation.frequency_Hz / f;
   if (options.selection == Selection::paper) return options.largest_deviation <= 0.0 || relative <= options.largest_deviation;
   const double share = options.largest_bandwidth_share;
-  // A decay whose damping may be none is not known to decay: noise has such poles, well known in frequency by chance.
-  if (seconds <= 0.0) return share <= 0.0 || (deviation.frequency_Hz <= share * zeta * f && deviation.damping_ratio <= zeta);
+  if (seconds <= 0.0) return share <= 0.0 || deviation.frequency_Hz <= share * zeta * f;
   if (options.largest_law_ratio <= 0.0) return true;
   // In relation to the half bandwidth and to the damping ratio itself, the least deviation is the same number.
   const double law = std::sqrt(1.0 / (2.0 * std::numbers::pi * f * zeta * seconds)), short_record = kNearLaw * law;
@@ -124,6 +123,14 @@ void drop_undetermined(Identification& result, const IdentifyOptions& options, d
   drop_hidden_mixtures(result, options.automatic);
   stays.clear();
   for (std::size_t m = 0; m < result.modes.size(); ++m) stays.push_back(!is_shadow(result, m, is_stationary(options, seconds)));
+  keep_modes(result, stays);
+}
+
+void drop_noise_of_a_decay(Identification& result, Eigen::Index samples) {
+  const double largest = std::sqrt(2.0 * std::log(static_cast<double>(samples)));
+  std::vector<bool> stays;
+  for (std::size_t m = 0; m < result.modes.size(); ++m)
+    stays.push_back(result.modes[m].damping_ratio > largest * result.deviations[m].damping_ratio);
   keep_modes(result, stays);
 }
 
@@ -315,6 +322,8 @@ Identification identify_decays(const std::vector<Eigen::MatrixXd>& decays, doubl
   const FreeDecay found = era(decays, options.block_rows, options.orders(), rate_Hz, seed, kDraws, quiet);
   Identification result = select(found.models, options);
   add_deviations(result, found.observability, found.models, found.changes, options, 0.0);
+  if (options.selection == Selection::automatic && options.largest_bandwidth_share > 0.0)
+    drop_noise_of_a_decay(result, decays.front().rows());
   return result;
 }
 
