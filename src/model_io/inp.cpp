@@ -152,6 +152,7 @@ ImportedModel read_inp(const std::filesystem::path& path) {
   parts.notes = plan.notes;
   parts.model.source = path.string();
   const InpStage stage = find_inp_stage(plan);
+  if (stage.asked) refuse_other_supports_than_of_static_steps(file);
   for (const InpReading& reading : stage.cards) parts.of_stage.insert(reading.card);
   for (const auto& pass : passes()) {
     for (const InpReading& reading : plan.readings) {

@@ -168,7 +168,7 @@ struct DeckReader {
     if (key == "K2PP" || key == "M2PP")
       fail(line, key, "adds matrices to responses and complex modes alone, which is not read",
            "add them to the structure by K2GG or M2GG, or leave the line out");
-    if (key == "NLIC")
+    if (key == "NLIC" || (key == "ANALYSIS" && upper_case(value).starts_with("NLST")))
       fail(line, key, "starts the modes from a step of nonlinear statics, which is not read",
            "write a linear static subcase and STATSUB");
     if (key.starts_with("SUBCASE")) return open_subcase(line, trimmed(key.substr(7) + value));
