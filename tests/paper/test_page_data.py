@@ -20,7 +20,7 @@ from twindeck_report.page import measured, poles, scripts  # noqa: E402
 from twindeck_report.page.drawing import read_drawing  # noqa: E402
 from twindeck_report.page.flowchart import duration, flowchart  # noqa: E402
 from twindeck_report.page.heatmap import colour, heatmaps  # noqa: E402
-from twindeck_report.page.places import where_data  # noqa: E402
+from twindeck_report.page.places import place_of, places, where_data  # noqa: E402
 from twindeck_report.page.processors import processors, reproduced  # noqa: E402
 from twindeck_report.page.shapes import packed  # noqa: E402
 from twindeck_report.figures.flow import FlowStep  # noqa: E402
@@ -73,6 +73,17 @@ class Drawings(unittest.TestCase):
         )
         self.assertEqual((len(drawing.faces), len(drawing.lines)), (4, 7))
         self.assertEqual({drawing.ids[i] for i in drawing.names["NE1"]}, {"1", "12"})
+
+    def test_a_group_of_dampers_or_stays_has_its_places(self):
+        self.model(["1,beam,NE1,,steel,,1,5", "2,beam,SE1,,steel,,2,6"])
+        write(self.root / "model/springs.csv", "spring,group,node,node2\nC1,damper_C,5,\nC2,damper_C,6,\n")
+        write(self.root / "model/model.toml", 'title = "made up"\n')
+        effect = {"cause": "barstays", "location": "global", "parameters": [{"name": f"force_{s}_N"} for s in ("NE1", "SE1")]}
+        where, words = place_of(effect)
+        self.assertEqual(words, "the stays NE1 and SE1")
+        dampers, stays = places(self.study, {}, "model", [{"location": "dampers:C1,C2", "score": 2.0}, {"location": where, "score": 1.0}])
+        self.assertEqual(dampers["spots"], [[0, 0, 1], [1, 0, 1]])
+        self.assertEqual((stays["spots"], len(stays["nodes"])), ([], 4))
 
     def test_a_triangle_beside_a_square_shares_its_edge(self):
         """A square and a triangle on one of its sides: three faces, five free edges."""

@@ -6,7 +6,7 @@ import numpy as np
 from ..study import Study
 from .drawing import read_drawing
 from .measured import read_measured
-from .places import places
+from .places import place_of, places
 from .still import view
 
 WIDTH, MARGIN = 480, 34  # of the view box: legible on a telephone
@@ -81,8 +81,8 @@ def causes(study: Study, settings: dict, folder, told: dict | None) -> list:
     if told is None or told["verdict"] == "none":
         return []
     effects = told["effects"] if told["verdict"] != "unknown" else []
-    entries = [{"location": e["location"], "words": (e.get("place") or {}).get("words") or e["location"], "score": -i, "place": e.get("place") or {}}
-               for i, e in enumerate(effects)]
+    entries = [{"location": where, "words": told or where, "score": -i, "place": e.get("place") or {}}
+               for i, e in enumerate(effects) for where, told in (place_of(e),)]
     entries = entries or [{**e, "place": {}} for e in sorted(told.get("localisation", []), key=lambda e: -e["score"])[:1]]
     at = places(study, settings, folder, entries)
     for entry, one in zip(entries, at):
