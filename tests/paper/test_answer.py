@@ -138,6 +138,7 @@ class OneStudy(unittest.TestCase):
         for count, words in ((1, "One cause explains it"), (2, "2 causes explain it together")):
             self.assertEqual(diagnosis.verdict_in_words({"verdict": "named", "effects": [{}] * count})[1], words)
         self.assertEqual(diagnosis.verdict_in_words({"verdict": "unknown", "effects": [{}] * 2})[1], diagnosis.VERDICTS["unknown"][1])
+        self.assertIn("No cause is named", diagnosis.verdict_in_words({"verdict": "unknown", "effects": []})[2], "nothing is named below")
 
     def test_a_gain_whose_interval_holds_zero_is_not_claimed(self):
         gain = made_up_answer.diagnosis()["gain"]

@@ -5,7 +5,7 @@ import textwrap
 import numpy as np
 import pandas as pd
 
-from ..page.diagnosis import verdict_in_words
+from ..page.diagnosis import residual_counts, verdict_in_words
 from ..page.headline import in_runs
 from ..page.heatmap import NAMES, label
 from ..study import Study
@@ -39,7 +39,7 @@ def draw(study: Study):
     right.invert_yaxis()
     right.set_xlabel("score (standard deviations)")
     right.set_title("where a change would explain most", loc="left")
-    figure.suptitle(f"{verdict_in_words(told)[1]}.", x=0.01, ha="left", fontsize=11)
+    figure.suptitle(f"{verdict_in_words(told, residual_counts(study)[1])[1]}.", x=0.01, ha="left", fontsize=11)
     figure.tight_layout()
     return figure, rows
 

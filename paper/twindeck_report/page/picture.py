@@ -101,7 +101,7 @@ def _mark(cause: dict, drawing, place, number) -> str:
         faces = [f for f in drawing.faces[:MOST_LINES] if all(i in held for i in f)]
         body += '<path class="marked plate" d="' + "".join("M" + "L".join(f"{at[i][0]:.1f} {at[i][1]:.1f}" for i in f) + "z" for f in faces) + '"/>'
         anchor = at[sorted(held)].mean(axis=0)
-    if cause["spots"]:
+    if cause["spots"] and not (cause["nodes"] and len(cause["spots"]) > 1):  # the parts of a group are coloured
         at = place(np.array(cause["spots"][:MOST_SPOTS]))
         body += "".join(f'<circle class="ring" cx="{x:.1f}" cy="{y:.1f}" r="13"/><circle class="spot" cx="{x:.1f}" cy="{y:.1f}" r="4.5"/>' for x, y in at)
         anchor = at[0]

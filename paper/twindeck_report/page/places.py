@@ -41,7 +41,7 @@ def where_data(found: list, nodes: int) -> dict:
         at = [i for i in entry["nodes"] if i < nodes]
         score[at] = np.maximum(score[at], entry["score"])
         spots += [
-            {"name": entry["location"], "score": round(entry["score"], 2), "at": [round(float(x), 3) for x in spot]}
+            {"name": entry.get("words", entry["location"]), "score": round(entry["score"], 2), "at": [round(float(x), 3) for x in spot]}
             for spot in entry["spots"]
         ]
     most = max([LEAST_FULL, *(entry["score"] for entry in found)])
@@ -77,9 +77,9 @@ class _Finder:
             spots = [spot for part in parts for spot in self._attached(part)]
         elif self.drawing is not None and kind in ("element", "stay"):
             of = self.drawing.elements if kind == "element" else self.drawing.names
-            nodes = [i for part in parts for i in of.get(part, [])]
-            if nodes and len(parts) == 1:  # several are a group, whose parts are coloured
-                spots = [self.drawing.points[nodes].mean(axis=0).tolist()]
+            each = [sorted(of[part]) for part in parts if part in of]
+            nodes = [i for one in each for i in one]
+            spots = [self.drawing.points[one].mean(axis=0).tolist() for one in each]
         elif self.drawing is not None and kind == "group":
             nodes = sorted({i for part in parts for group in self.groups.get(part, [part]) for i in self.drawing.groups.get(group, [])})
         return {"spots": spots, "nodes": nodes}

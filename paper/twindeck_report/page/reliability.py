@@ -9,9 +9,8 @@ PICTURES = {module.NAME: (title, module.CAPTION) for module, title in (
     (fragility, "Fragility in wind"), (reliability_years, "Importance, and the years"), (visible_loss, "What monitoring would see"))}
 TABLES = {"critical": "Critical speeds with their intervals", "crossings": "Limits in a given mean wind", "importance": "What the critical speed hangs on", "years": "Over the years",
           "visible": "What monitoring would see", "rare": "Rare events by two methods", "annual": "A year under the wind law", "random": "Random inputs"}
-LIMITS = {"comfort_vertical": "vertical comfort limit exceeded", "comfort_lateral": "lateral comfort limit exceeded", "stay_slack": "a stay goes slack",
-          "damper_stroke": "a damper's stroke exceeded"}
-UNSTABLE = "bridge unstable (5 to 95 %)"
+LIMITS = {"comfort_vertical": "vertical comfort", "comfort_lateral": "lateral comfort", "stay_slack": "a stay goes slack", "damper_stroke": "a damper's stroke"}
+UNSTABLE = "instability (5 to 95 %)"
 EVEN = 0.5
 
 
@@ -30,12 +29,12 @@ def reliability(study: Study) -> dict | None:
 
 
 def _winds(found: dict) -> dict:
-    """{head, rows}: a row a limit, a column a case and year. `found`: limit -> {case and year: wind in words}."""
-    head = list(dict.fromkeys(column for row in found.values() for column in row))
-    return {"head": head, "rows": [(limit, [row.get(column, "–") for column in head]) for limit, row in found.items()]}
+    """{head, rows}: a row a case and year, a column a limit. `found`: limit -> {case and year: wind in words}."""
+    cases = list(dict.fromkeys(case for column in found.values() for case in column))
+    return {"head": list(found), "rows": [(case, [column.get(case, "–") for column in found.values()]) for case in cases]}
 
 
-def _column(case: str, year: float, several: bool) -> str:
+def _case(case: str, year: float, several: bool) -> str:
     return f"{case}, year {year:g}" if several else case
 
 
@@ -44,10 +43,10 @@ def _comfort(curves) -> dict:
     told = {}
     for state, words in LIMITS.items():
         rows = curves[curves["limit_state"] == state]
-        row = {_column(case, years, rows["years"].nunique() > 1): _even(curve.sort_values("speed_m_s"))
-               for (case, years), curve in rows.groupby(["case", "years"], sort=False)}
-        if row:
-            told[words] = row
+        column = {_case(case, years, rows["years"].nunique() > 1): _even(curve.sort_values("speed_m_s"))
+                  for (case, years), curve in rows.groupby(["case", "years"], sort=False)}
+        if column:
+            told[words] = column
     return told
 
 
@@ -67,9 +66,9 @@ def _stability(critical, curves) -> dict:
     """The critical speed with its interval, by the model that the limits are of."""
     model = curves[curves["limit_state"] != "stability"]["model"]
     rows = critical[critical["model"] == model.iloc[0]] if len(model) else critical
-    row = {_column(r["case"], r["years"], rows["years"].nunique() > 1): "none found" if r["speed_m_s"] != r["speed_m_s"] else
-           f"{r['speed_m_s']:.1f} m/s ({r['low_m_s']:.1f} to {r['high_m_s']:.1f})" for r in rows.to_dict("records")}
-    return {UNSTABLE: row} if row else {}
+    column = {_case(r["case"], r["years"], rows["years"].nunique() > 1): "none found" if r["speed_m_s"] != r["speed_m_s"] else
+              f"{r['speed_m_s']:.1f} m/s ({r['low_m_s']:.1f} to {r['high_m_s']:.1f})" for r in rows.to_dict("records")}
+    return {UNSTABLE: column} if column else {}
 
 
 def _visible(study: Study) -> list:
