@@ -71,8 +71,11 @@ std::optional<std::string> density_slip(const fe::Material& m, double speed) {
     if (!usual_speed_m_s.holds(speed * std::sqrt(modulus / unit.factor))) continue;
     return fmt::format(
         "material '{}' has a density of {:g} kg/m3, so that waves run at {:.3g} m/s in it; steel has 5200, concrete "
-        "3500: is the density in {}? Give kg/m3",
-        m.name, m.density_kg_m3, speed, unit.name);
+        "3500: is the density in {}? {}",
+        m.name, m.density_kg_m3, speed, unit.name,
+        modulus == 1.0        ? "Give kg/m3"
+        : unit.factor == 1e12 ? "Frequencies hold in N, mm and t; for lengths and masses write the model in N, m and kg"
+                              : "With E in N/mm2 it is t/mm3: divide it by 1000, or write the model in N, m and kg");
   }
   return std::nullopt;
 }
@@ -108,6 +111,31 @@ std::optional<std::string> weight_slip(const fe::Material& m, double speed) {
       m.name, m.density_kg_m3, speed, best->name);
 }
 
+/// A weight per volume in a deck whose numbers are in one of the systems without a unit of mass of its own.
+std::optional<std::string> weight_of_system(const fe::Material& m) {
+  struct System {
+    double modulus_Pa, density_kg_m3;  ///< of one unit of stress, of weight per volume
+    const char *weight, *units, *divisor;
+  };
+  static constexpr std::array<System, 5> systems = {{{6894.757, 27679.9, "lbf/in3", "lbf and in", "386.09"},
+                                                     {98066.5, 1e6, "kgf/cm3", "kgf and cm", "980.665"},
+                                                     {9806.65, 1e3, "tonf/m3", "tonf and m", "9.80665"},
+                                                     {1e3, 1e3 / gravity_m_s2, "kN/m3", "kN and m", "9.80665"},
+                                                     {1e6, 1e9 / gravity_m_s2, "N/mm3", "N and mm", "9806.65"}}};
+  constexpr double alike = 0.25;  ///< [-] of ln, as in weight_slip; foams, which have such numbers in SI units, are 0.4 off
+  for (const System& system : systems)
+    for (const KnownMaterial& known : known_materials) {
+      const double density = m.density_kg_m3 * system.density_kg_m3,
+                   speed = std::sqrt(m.youngs_modulus_Pa * system.modulus_Pa / density);
+      if (std::hypot(std::log(density / known.density_kg_m3), std::log(speed / known.speed_m_s)) > alike) continue;
+      return fmt::format(
+          "material '{}' has E = {:.4g} and a density of {:.4g}: is the density a weight in {}, among numbers in {}? Divide it "
+          "by {}",
+          m.name, m.youngs_modulus_Pa, m.density_kg_m3, system.weight, system.units, system.divisor);
+    }
+  return std::nullopt;
+}
+
 /// Mean density of the structure: all mass that is in it over the volume of its elements.
 std::optional<std::string> mean_density_slip(const fe::Model& model) {
   double volume_m3 = 0.0, own_kg = 0.0, points_kg = 0.0, length_m = 0.0;
@@ -130,7 +158,7 @@ std::optional<std::string> mean_density_slip(const fe::Model& model) {
   return fmt::format(
       "the mass of {:.4g} kg ({:.4g} kg per metre of its members) is a mean density of {:.3g} kg/m3 of what is drawn; steel "
       "has "
-      "7850: are the masses weights in newtons? Give kilograms",
+      "7850: are the masses weights in newtons? Give kilograms; in a deck in N and mm, tonnes",
       own_kg + points_kg, (own_kg + points_kg) / length_m, mean);
 }
 
@@ -272,7 +300,9 @@ std::vector<std::string> unit_slips(const fe::Model& model) {
     const fe::Material& m = model.materials[static_cast<std::size_t>(at)];
     if (!(m.density_kg_m3 > 0.0)) continue;  // a part without mass may be as stiff as one likes
     const double speed = std::sqrt(m.youngs_modulus_Pa / m.density_kg_m3);
-    if (const auto weight = weight_slip(m, speed)) {
+    auto weight = weight_slip(m, speed);
+    if (!weight) weight = weight_of_system(m);
+    if (weight) {
       slips.push_back(*weight);  // a modulus in kPa would explain the speed as well, but not the density
       continue;
     }

@@ -5,6 +5,7 @@
 #include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
 #include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <vector>
 
@@ -36,7 +37,7 @@ MatrixXd fixed_block(Index rows, Index columns, int draw) {
 }
 
 /// Pairs of the operator, not yet purified, by exact condensation to the few dofs with mass: G = E' A^-1 E = C C', then C' M C
-/// z = mu z, x = A^-1 E M C z.
+/// z = mu z, x = E C z.
 BlockLanczosResult condensed(const SparseMatrix& mass, const std::vector<Index>& dofs, int n_pairs, const Cholesky& factor) {
   const auto m = static_cast<Index>(dofs.size());
   MatrixXd unit = MatrixXd::Zero(mass.rows(), m);
@@ -50,7 +51,7 @@ BlockLanczosResult condensed(const SparseMatrix& mass, const std::vector<Index>&
   BlockLanczosResult out;
   const double floor = 1e-13 * eig.eigenvalues().maxCoeff();
   while (out.converged < std::min<Index>(n_pairs, m) && eig.eigenvalues()[m - 1 - out.converged] > floor) ++out.converged;
-  out.vectors = flexibility * (small_mass * (c * eig.eigenvectors().rightCols(out.converged).rowwise().reverse()));
+  out.vectors = unit * (c * eig.eigenvectors().rightCols(out.converged).rowwise().reverse());
   out.operations = static_cast<int>(m);
   return out;
 }
@@ -65,6 +66,15 @@ BlockLanczosResult by_lanczos(const SparseMatrix& mass, int n_pairs, const Chole
   BlockLanczosResult found = block_lanczos(op, start_block, n_pairs);
   found.operations += kBlock;
   return found;
+}
+
+/// Scales each y = A^-1 M x to y'My = 1, and M x alike. Where members are all but massless, lambda spans ten decades; unscaled,
+/// y'My of the highest modes would drown in the rounding of the lowest.
+void scale_to_unit_mass(MatrixXd& mass_x, MatrixXd& y, MatrixXd& mass_y) {
+  for (Index j = 0; j < y.cols(); ++j) {
+    const double scale = 1.0 / std::sqrt(y.col(j).dot(mass_y.col(j)));
+    for (MatrixXd* block : {&mass_x, &y, &mass_y}) block->col(j) *= scale;
+  }
 }
 
 }  // namespace
@@ -97,9 +107,10 @@ EigenPairs lowest_eigenpairs(const SparseMatrix& stiffness, const SparseMatrix& 
       few ? condensed(mass_matrix, massive, n_pairs, factor) : by_lanczos(mass_matrix, n_pairs, factor);
 
   // Purification, then Rayleigh and Ritz on the purified block y = A^-1 M x: y'Ay = y'Mx and y'My give lambda - sigma.
-  const MatrixXd mass_x = symmetric_product(mass_matrix, found.vectors);
-  const MatrixXd y = factor.solve(mass_x);
-  const MatrixXd mass_y = symmetric_product(mass_matrix, y);
+  MatrixXd mass_x = symmetric_product(mass_matrix, found.vectors);
+  MatrixXd y = factor.solve(mass_x);
+  MatrixXd mass_y = symmetric_product(mass_matrix, y);
+  scale_to_unit_mass(mass_x, y, mass_y);
   const MatrixXd a = product(y, mass_x, true), b = product(y, mass_y, true);
   out.operations = found.operations + static_cast<int>(found.vectors.cols());
   if (found.vectors.cols() > 0) {

@@ -145,11 +145,19 @@ void read_section_offset(Parts& parts, const Command& command) {
 }
 
 void read_section_control(Parts& parts, const Command& command) {
-  (void)current_section(parts, command);
+  // Beams: shear stiffnesses, mass per length; links: mass per length, tension or compression only; shells: shear stiffnesses,
+  // mass per area, factors of hourglass and drilling stiffness, which archives write as their default 1.
+  const SectionDefinition& section = current_section(parts, command);
+  const bool link = section.type.starts_with("LINK"), shell = section.type.starts_with("SHEL");
   for (std::size_t i = 0; i < command.fields.size(); ++i) {
-    if (command.number_or(i, 0.0) != 0.0)
-      command.fail(fmt::format("field {} overrides a stiffness of the section or adds mass, which is not supported", i + 1),
-                   "leave it blank and give the section as ASEC, the mass as MASS21 or density");
+    const double value = command.number_or(i, 0.0);
+    if (value == 0.0 || (shell && i > 3 && value == 1.0)) continue;
+    if (link && i == 1) {
+      parts.note_once("LINK180 of tension or compression only is read as a bar that takes both");
+      continue;
+    }
+    command.fail(fmt::format("field {} overrides a stiffness of the section or adds mass, which is not supported", i + 1),
+                 "leave it blank and give the section as ASEC, the mass as MASS21 or density");
   }
 }
 

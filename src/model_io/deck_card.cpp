@@ -60,6 +60,24 @@ std::vector<std::string> split_at(const std::string& text, char separator) {
   return parts;
 }
 
+std::filesystem::path included_file(const DeckPlace& at, const std::filesystem::path& from, const std::string& name,
+                                    const std::vector<std::filesystem::path>& open) {
+  constexpr std::size_t deepest = 20;  // files within files; real decks have two or three levels
+  std::string slashed = name;
+  std::replace(slashed.begin(), slashed.end(), '\\', '/');
+  const auto folder = open.front().parent_path();
+  std::filesystem::path path = from.parent_path() / slashed;
+  if (!std::filesystem::is_regular_file(path)) path = folder / slashed;
+  if (name.empty() || !std::filesystem::is_regular_file(path))
+    at.fail(fmt::format("the file '{}' is not there", name), "put it beside the deck, or mend its path");
+  const auto canonical = std::filesystem::weakly_canonical(path);
+  if (std::mismatch(folder.begin(), folder.end(), canonical.begin(), canonical.end()).first != folder.end())
+    at.fail("the file does not lie below the folder of the deck", "copy it there, and include the copy");
+  if (open.size() >= deepest || std::find(open.begin(), open.end(), canonical) != open.end())
+    at.fail(fmt::format("the file '{}' includes itself", name), "take one of the INCLUDE lines out");
+  return path;
+}
+
 void DeckPlace::fail(const std::string& problem, const std::string& mend) const {
   throw InputError({file == nullptr ? "" : file->string(), line, label}, problem, mend);
 }

@@ -30,6 +30,12 @@ struct DeckPlace {
   [[noreturn]] void fail(const std::string& problem, const std::string& mend = "") const;
 };
 
+/// The file that a line of a deck includes: beside the file of that line, or beside the deck.
+/// @param open  files being read, the deck first, by their canonical paths
+/// @throws InputError  if it is not there, not below the folder of the deck, or being read already
+[[nodiscard]] std::filesystem::path included_file(const DeckPlace& at, const std::filesystem::path& from,
+                                                  const std::string& name, const std::vector<std::filesystem::path>& open);
+
 /// How a dialect writes and counts fields.
 struct DeckDialect {
   std::size_t first_field = 1;               ///< number of the first field in the dialect's manual

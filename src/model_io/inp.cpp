@@ -36,6 +36,7 @@ const std::vector<std::map<std::string, Reader>>& passes() {
       {{"BEAM SECTION", assign_inp_section},
        {"BEAM GENERAL SECTION", assign_inp_section},
        {"SHELL SECTION", assign_inp_section},
+       {"SHELL GENERAL SECTION", assign_inp_section},
        {"USER SECTION", assign_inp_section},
        {"SOLID SECTION", assign_inp_section},
        {"SPRING", attach_inp_spring},
@@ -85,8 +86,6 @@ void refuse_unknown(const InpPlan& plan) {
       // read together with its coupling
     } else if (card.keyword == "USER ELEMENT" && upper_case(card.get("TYPE")) == "US3") {
       // announces the three-node shell US3, which *ELEMENT lists
-    } else if (card.keyword == "INCLUDE") {
-      card.fail("unsupported card: other files are not read", "put the text of the file in its place");
     } else if (!is_in(known, card.keyword) && !is_in(noted_cards(), card.keyword)) {
       card.fail("unsupported card" + did_you_mean(card.keyword, known),
                 "leave it out if the model is meant without it; docs/my_model.md lists what is read");
@@ -152,6 +151,7 @@ ImportedModel read_inp(const std::filesystem::path& path) {
   parts.notes = plan.notes;
   parts.model.source = path.string();
   const InpStage stage = find_inp_stage(plan);
+  if (stage.asked) refuse_other_supports_than_of_static_steps(file);
   for (const InpReading& reading : stage.cards) parts.of_stage.insert(reading.card);
   for (const auto& pass : passes()) {
     for (const InpReading& reading : plan.readings) {
@@ -179,7 +179,7 @@ ImportedModel read_inp(const std::filesystem::path& path) {
   }
   read_inp_stage(parts, stage);
   name_points(parts);
-  return parts.finished({path}, "*ELEMENT cards with their sections");
+  return parts.finished({file.files().begin(), file.files().end()}, "*ELEMENT cards with their sections");
 }
 
 }  // namespace twindeck::model_io

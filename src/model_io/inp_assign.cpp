@@ -104,6 +104,7 @@ void assign_beam(InpParts& parts, const InpCard& card) {
   card.allow({"ELSET", "MATERIAL", "SECTION", "POISSON", "TEMPERATURE", "ORIENTATION"});
   std::string profile = upper_case(card.required("SECTION"));
   if (profile == "RECTANGULAR" || profile == "CIRCULAR") profile.resize(4);  // "RECT", "CIRC"
+  if (profile == "THICK PIPE") profile = "PIPE";
   const std::size_t size = profile_size(profile);
   if (size == 0)
     card.fail(fmt::format("unsupported SECTION={}{}", profile, did_you_mean(profile, profile_names())),
@@ -121,7 +122,8 @@ void assign_beam(InpParts& parts, const InpCard& card) {
   std::string problem;
   const fe::Material& m = parts.model.materials[fe::slot(material)];
   fe::Section section = profile_section(profile, values, m.poisson_ratio, problem);
-  if (!problem.empty()) line.fail(problem, "check the dimensions of the " + profile);
+  if (!problem.empty())
+    line.fail(problem, fmt::format("check the dimensions of the {}, or give another shape by *BEAM GENERAL SECTION", profile));
   if (is_euler_beam(parts, card)) section.shear_area_y_m2 = section.shear_area_z_m2 = 0.0;
   const bool orthotropic = second != parts.second_shear_moduli.end();
   if (orthotropic) section = contracted_beam(section, m.shear_modulus_Pa, second->second);
@@ -176,8 +178,12 @@ void assign_general_beam(InpParts& parts, const InpCard& card) {
 
 /// *SHELL SECTION, and *USER SECTION of CalculiX' three-node user shell US3, whose constants begin with the thickness.
 void assign_shell(InpParts& parts, const InpCard& card) {
-  card.allow(card.keyword == "USER SECTION" ? std::vector<std::string>{"ELSET", "MATERIAL", "CONSTANTS"}
-                                            : std::vector<std::string>{"ELSET", "MATERIAL", "SECTION INTEGRATION", "POISSON"});
+  std::vector<std::string> known = {"ELSET",   "MATERIAL",    "SECTION INTEGRATION",
+                                    "POISSON", "ORIENTATION", "CONTROLS"};  // isotropic: no direction matters
+  if (card.keyword == "USER SECTION") known = {"ELSET", "MATERIAL", "CONSTANTS"};
+  if (const std::string offset = upper_case(card.get("OFFSET", "0")); offset == "0" || offset == "0." || offset == "0.0")
+    known.emplace_back("OFFSET");
+  card.allow(known);
   const int material = material_of(parts, card);
   fe::Section s;
   s.thickness_m = above_zero(card.line_of(0, "the thickness"), 0);
@@ -210,7 +216,7 @@ void assign_inp_section(InpParts& parts, const InpCard& card) {
   (void)card.required("ELSET");
   if (card.keyword == "BEAM SECTION") return assign_beam(parts, card);
   if (card.keyword == "BEAM GENERAL SECTION") return assign_general_beam(parts, card);
-  if (card.keyword == "SHELL SECTION" || card.keyword == "USER SECTION") return assign_shell(parts, card);
+  if (card.keyword.starts_with("SHELL") || card.keyword == "USER SECTION") return assign_shell(parts, card);
   assign_solid(parts, card);
 }
 

@@ -144,6 +144,7 @@ void attach_inp_mass(InpParts& parts, const InpCard& card) {
     mass.group = parts.group_of(card, *element);
     mass.node = parts.node(*element->at, element->nodes[0]);
     parts.model.masses.push_back(mass);
+    if (!rotary) parts.point_mass_kg[element->id] = mass.mass_kg;
   }
 }
 

@@ -61,29 +61,40 @@ std::string InpCard::get(const std::string& name, const std::string& fallback) c
 
 InpFile InpFile::read(const std::filesystem::path& file) {
   InpFile result;
-  result.files_.push_back(file);
-  const std::filesystem::path& path = result.path();
+  std::vector<std::filesystem::path> open;
+  result.append(file, open);
+  return result;
+}
+
+void InpFile::append(const std::filesystem::path& file, std::vector<std::filesystem::path>& open) {
+  const std::filesystem::path& path = files_.emplace_back(file);
+  open.push_back(std::filesystem::weakly_canonical(file));
   io::TextLines stream(file, io::longest_text);
   if (!stream.opened()) throw InputError({file.string(), 0, ""}, "cannot be opened", "give the path of an .inp file");
   std::string text, pending;
   long first = 0;
+  const auto close_card = [&] {
+    InpCard card = to_card(pending, path, first);
+    pending.clear();
+    if (card.keyword == "INCLUDE")
+      append(included_file(card, path, card.required("INPUT"), open), open);
+    else
+      cards_.push_back(std::move(card));
+  };
   while (stream.next(text)) {
     const long number = stream.number();
     const std::string line = trimmed(text);
     if (line.empty() || line.starts_with("**")) continue;
-    if (pending.starts_with('*') && !continues_a_card(line)) {
-      result.cards_.push_back(to_card(pending, path, first));
-      pending.clear();
-    }
+    if (pending.starts_with('*') && !continues_a_card(line)) close_card();
     if (pending.empty()) first = number;
     pending += line;
     if (pending.starts_with('*') && line.ends_with(',')) continue;  // the card goes on in the next line
     if (pending.starts_with('*')) {
-      result.cards_.push_back(to_card(pending, path, first));
-    } else if (result.cards_.empty()) {
+      close_card();
+    } else if (cards_.empty()) {
       throw InputError({file.string(), number, ""}, "data stand before the first card", "begin the file with *HEADING");
     } else {
-      InpCard& card = result.cards_.back();
+      InpCard& card = cards_.back();
       if (takes_no_data(card.keyword)) {
         throw InputError({file.string(), first, card.label}, "a data line stands under this card, which takes none",
                          "take the line out, or write the card that it belongs to above it");
@@ -96,7 +107,7 @@ InpFile InpFile::read(const std::filesystem::path& file) {
     throw InputError({file.string(), stream.number() - 1, ""}, "the file ends within a line that a comma continues",
                      "complete the line");
   }
-  return result;
+  open.pop_back();
 }
 
 std::string InpCard::required(const std::string& parameter) const {

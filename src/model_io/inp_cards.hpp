@@ -40,14 +40,19 @@ struct InpCard : DeckPlace {
 /// The cards of a file in their order.
 class InpFile {
  public:
+  /// The cards of a file, with those of the files that it includes in the place of *INCLUDE.
   /// @throws InputError  if it cannot be opened, or has data before the first card
   static InpFile read(const std::filesystem::path& file);
 
   [[nodiscard]] const std::vector<InpCard>& cards() const { return cards_; }
   [[nodiscard]] const std::filesystem::path& path() const { return files_.front(); }
+  [[nodiscard]] const std::deque<std::filesystem::path>& files() const { return files_; }
 
  private:
-  std::deque<std::filesystem::path> files_;  ///< the file; cards point to it
+  /// @param open  files being read, the deck first
+  void append(const std::filesystem::path& file, std::vector<std::filesystem::path>& open);
+
+  std::deque<std::filesystem::path> files_;  ///< the deck first; cards point to them
   std::vector<InpCard> cards_;
 };
 

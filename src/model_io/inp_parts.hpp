@@ -57,6 +57,7 @@ struct InpParts : DeckModel {
   int scope = 0;                      ///< of the card that is being read
   std::map<long, int> scope_of_node;  ///< where *NODE defines it
   std::map<long, InpElement> elements;
+  std::map<long, double> point_mass_kg;  ///< of elements of type MASS
   std::map<std::string, InpSet> node_sets,
       element_sets;                                    ///< by name in upper case, "INSTANCE.NAME" within an instance
   std::map<std::string, InpSurface> surfaces;          ///< likewise

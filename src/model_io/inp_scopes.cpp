@@ -192,12 +192,8 @@ class Planner {
   int scope_ = 0;
 };
 
-}  // namespace
-
-InpPlan plan_readings(const InpFile& file) { return Planner(file).plan(); }
-
-std::vector<const InpCard*> boundaries_in_force(const InpFile& file) {
-  const std::size_t end = end_of_modal_step(file);
+/// The *BOUNDARY cards in force at the end of those before `end`: OP=NEW in a step drops those before the step.
+std::vector<const InpCard*> boundaries_before(const InpFile& file, std::size_t end) {
   std::vector<const InpCard*> before, here;
   bool renewed = false;
   for (std::size_t i = 0; i < end; ++i) {
@@ -216,6 +212,38 @@ std::vector<const InpCard*> boundaries_in_force(const InpFile& file) {
   }
   before.insert(before.end(), here.begin(), here.end());
   return before;
+}
+
+/// What *BOUNDARY cards hold: "node or set:direction".
+std::set<std::string> held_directions(const std::vector<const InpCard*>& cards) {
+  std::set<std::string> held;
+  for (const InpCard* card : cards)
+    for (const InpLine& line : card->data) {
+      const std::string place = upper_case(line.fields[0]), what = line.fields.size() > 1 ? line.word(1) : "";
+      if (!is_whole_number(what)) held.insert(place + ":" + what);
+      const int first = is_whole_number(what) ? line.component(1) : 0, last = line.blank(2) ? first : line.component(2);
+      for (int d = first; d <= last && is_whole_number(what); ++d) held.insert(fmt::format("{}:{}", place, d));
+    }
+  return held;
+}
+
+}  // namespace
+
+InpPlan plan_readings(const InpFile& file) { return Planner(file).plan(); }
+
+std::vector<const InpCard*> boundaries_in_force(const InpFile& file) {
+  return boundaries_before(file, end_of_modal_step(file));
+}
+
+void refuse_other_supports_than_of_static_steps(const InpFile& file) {
+  const auto& cards = file.cards();
+  std::size_t modal_step = end_of_modal_step(file);
+  while (modal_step > 0 && cards[modal_step - 1].keyword != "STEP") --modal_step;
+  if (held_directions(boundaries_in_force(file)) == held_directions(boundaries_before(file, modal_step))) return;
+  const auto in_step = cards.begin() + static_cast<std::ptrdiff_t>(modal_step);
+  std::find_if(in_step, cards.end(), [](const InpCard& card) { return card.keyword == "BOUNDARY"; })
+      ->fail("holds the structure of the modes otherwise than the static step that loads it, which is not read",
+             "hold it alike in both: give *BOUNDARY above the first *STEP, or in the static step too");
 }
 
 }  // namespace twindeck::model_io

@@ -178,17 +178,16 @@ class InpStageReader {
     std::set<long> ids;
     if (!line.blank(0))
       for (const long id : element_ids(line)) ids.insert(id);
-    bool all = true, masses = false;
-    for (const auto& [id, element] : parts_.elements) {
-      const bool in = line.blank(0) || ids.contains(id), is_mass = inp_kind(element.type) == InpKind::mass;
-      all = all && (in || (stage_.pieces(id).empty() && !is_mass));
-      masses = masses || (in && is_mass);
-    }
+    bool all = true;
+    for (const auto& [id, element] : parts_.elements)
+      all =
+          all && (line.blank(0) || ids.contains(id) || (stage_.pieces(id).empty() && inp_kind(element.type) != InpKind::mass));
     if (all) return stage_.accelerate(acceleration);
-    if (masses)
-      line.fail("GRAV acts on point masses and on a part of the other elements, which is not read",
-                "let it act on all elements");
-    for (const long id : ids) stage_.accelerate(id, acceleration);
+    for (const long id : ids) {
+      stage_.accelerate(id, acceleration);
+      if (const auto mass = parts_.point_mass_kg.find(id); mass != parts_.point_mass_kg.end())
+        stage_.load(stage_.node(line, parts_.elements.at(id).nodes[0]), mass->second * acceleration);
+    }
   }
 
   void read_surface_load(const InpLine& line) {

@@ -21,7 +21,6 @@ struct SplitLine {
 
 namespace {
 
-constexpr std::size_t deepest_include = 20;     ///< files within files; real decks have two or three levels
 constexpr std::size_t most_lines = 20'000'000;  ///< of a deck with all its files, two gigabytes: more is a mistake
 
 constexpr DeckDialect bulk_data = {2, 8, true, "check the columns of the card"};
@@ -119,25 +118,9 @@ struct DeckReader {
         if (close == std::string::npos) fail(at, "INCLUDE", "the quote of the file's name is not closed", "close it");
         name = name.substr(1, close - 1);
       }
-      include(at, path, trimmed(name));
+      expand(included_file({at.file, at.line, "INCLUDE"}, path, trimmed(name), open));
     }
     open.pop_back();
-  }
-
-  void include(const RawLine& at, const std::filesystem::path& from, const std::string& name) {
-    std::string slashed = name;
-    std::replace(slashed.begin(), slashed.end(), '\\', '/');
-    std::filesystem::path path = from.parent_path() / slashed;
-    if (!std::filesystem::is_regular_file(path)) path = deck.files_.front().parent_path() / slashed;
-    if (name.empty() || !std::filesystem::is_regular_file(path))
-      fail(at, "INCLUDE", fmt::format("the file '{}' is not there", name), "put it beside the deck, or mend its path");
-    const auto canonical = std::filesystem::weakly_canonical(path);
-    const auto folder = std::filesystem::weakly_canonical(deck.files_.front()).parent_path();
-    if (std::mismatch(folder.begin(), folder.end(), canonical.begin(), canonical.end()).first != folder.end())
-      fail(at, "INCLUDE", "the file does not lie below the folder of the deck", "copy it there, and include the copy");
-    if (open.size() >= deepest_include || std::find(open.begin(), open.end(), canonical) != open.end())
-      fail(at, "INCLUDE", fmt::format("the file '{}' includes itself", name), "take one of the INCLUDE lines out");
-    expand(path);
   }
 
   /// Executive and case control: only what changes the structure is looked at. @return  the first line of the bulk data
@@ -168,7 +151,7 @@ struct DeckReader {
     if (key == "K2PP" || key == "M2PP")
       fail(line, key, "adds matrices to responses and complex modes alone, which is not read",
            "add them to the structure by K2GG or M2GG, or leave the line out");
-    if (key == "NLIC")
+    if (key == "NLIC" || (key == "ANALYSIS" && upper_case(value).starts_with("NLST")))
       fail(line, key, "starts the modes from a step of nonlinear statics, which is not read",
            "write a linear static subcase and STATSUB");
     if (key.starts_with("SUBCASE")) return open_subcase(line, trimmed(key.substr(7) + value));

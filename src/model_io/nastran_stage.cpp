@@ -24,8 +24,10 @@ class StageReader {
   void read() {
     move_supports("SPC", parts_.deck.case_control().spc);
     if (const auto load = subcase_.chosen.find("LOAD"); load != subcase_.chosen.end()) {
-      for (const auto& [set, factor] : combined(load->second)) read_set(set, factor);
-      move_supports("SPCD", load->second);
+      for (const auto& [set, factor] : combined(load->second)) {
+        read_set(set, factor);
+        move_supports("SPCD", set, factor);
+      }
     }
     warm_all();
     stage_.close(fmt::format("subcase {} (STATSUB)", subcase_.id));
@@ -164,13 +166,13 @@ class StageReader {
   }
 
   /// Movements of supports: G1, C1, D1, G2, C2, D2 of the cards with this name and set.
-  void move_supports(const std::string& name, const std::optional<long>& set) {
+  void move_supports(const std::string& name, const std::optional<long>& set, double factor = 1.0) {
     for (const Card& card : parts_.deck.cards()) {
       if (card.name != name || (set && card.integer(0) != *set)) continue;
       for (std::size_t i = 1; i < card.size(); i += 3) {
         const double size = card.blank(i) ? 0.0 : card.number_or(i + 2, 0.0);
         if (card.blank(i) || (size == 0.0 && name == "SPC")) continue;
-        move_support(card, card.integer(i), components(card, i + 1), size);
+        move_support(card, card.integer(i), components(card, i + 1), factor * size);
       }
     }
   }

@@ -31,6 +31,7 @@ const std::set<std::string>& sap_tables_read() {
                                               "FRAME SECTION PROPERTIES 01 - GENERAL",
                                               "FRAME LOCAL AXES ASSIGNMENTS 1 - TYPICAL",
                                               "FRAME RELEASE ASSIGNMENTS 1 - GENERAL",
+                                              "FRAME PROPERTY MODIFIERS",
                                               "AREA SECTION ASSIGNMENTS",
                                               "AREA SECTION PROPERTIES",
                                               "MATERIAL PROPERTIES 02 - BASIC MECHANICAL PROPERTIES",
@@ -66,9 +67,11 @@ void refuse_what_is_not_carried(const SapTables& tables) {
   for (const auto& [name, rows] : tables.all()) {
     const bool of_structure =
         std::any_of(structural.begin(), structural.end(), [&, &table = name](const auto& s) { return table.starts_with(s); });
-    if (rows.empty() || !of_structure || sap_tables_read().contains(name) || says_nothing(name)) continue;
-    rows.front().fail("this table is not carried, and the structure would be another without it",
-                      "take it out of the model, or say the same by joints, frames, areas, restraints, springs and masses");
+    if (!of_structure || sap_tables_read().contains(name) || says_nothing(name)) continue;
+    const auto speaking = std::find_if(rows.begin(), rows.end(), [](const SapRow& row) { return !row.is_neutral(); });
+    if (speaking == rows.end()) continue;
+    speaking->fail("this table is not carried, and the structure would be another without it",
+                   "take it out of the model, or say the same by joints, frames, areas, restraints, springs and masses");
   }
   for (const SapRow& row : tables.rows("LOAD CASE DEFINITIONS"))
     if (upper_case(row.get("Type")) == "LINMODAL" && upper_case(row.get("InitialCond", "Zero")) != "ZERO")
@@ -171,18 +174,28 @@ class SapReader {
                  "give the section or the material the value itself");
   }
 
-  int frame_section(const SapRow& row) {
+  /// The section of a frame with the factors of the section and of the frame.
+  int frame_section(const SapRow& row, const std::string& frame) {
+    static const SapRow none{};
+    const auto& modified = tables_.rows("FRAME PROPERTY MODIFIERS");
+    const auto found =
+        std::find_if(modified.begin(), modified.end(), [&](const SapRow& of) { return of.get("Frame") == frame; });
+    const SapRow& own = found == modified.end() ? none : *found;
+    const auto factor = [&](const char* of_section, const char* of_frame) {
+      return row.number_of(of_section, 1.0) * own.number_of(of_frame, 1.0);
+    };
     refuse_factors(row, {"AMod", "MMod"});
+    refuse_factors(own, {"AMod", "MassMod"});
     if (row.number_of("I23", 0.0) != 0.0)
       row.fail("has a product of inertia I23, which is not read", "turn the section to its principal axes");
     fe::Section s;
     s.name = row.get("SectionName");
     s.area_m2 = row.number_of("Area");
-    s.inertia_z_m4 = row.number_of("I33") * row.number_of("I3Mod", 1.0);
-    s.inertia_y_m4 = row.number_of("I22") * row.number_of("I2Mod", 1.0);
-    s.torsion_m4 = row.number_of("TorsConst") * row.number_of("JMod", 1.0);
-    s.shear_area_y_m2 = row.number_of("AS2", 0.0) * row.number_of("A2Mod", 1.0);
-    s.shear_area_z_m2 = row.number_of("AS3", 0.0) * row.number_of("A3Mod", 1.0);
+    s.inertia_z_m4 = row.number_of("I33") * factor("I3Mod", "I33Mod");
+    s.inertia_y_m4 = row.number_of("I22") * factor("I2Mod", "I22Mod");
+    s.torsion_m4 = row.number_of("TorsConst") * factor("JMod", "JMod");
+    s.shear_area_y_m2 = row.number_of("AS2", 0.0) * factor("A2Mod", "AS2Mod");
+    s.shear_area_z_m2 = row.number_of("AS3", 0.0) * factor("A3Mod", "AS3Mod");
     if (!(std::min({s.area_m2, s.inertia_z_m4, s.inertia_y_m4, s.torsion_m4}) > 0.0))
       row.fail("Area, I33, I22 or TorsConst is not above 0", "complete the section; a nonprismatic one is not read");
     return deck_.add_section(s);
@@ -221,7 +234,7 @@ class SapReader {
       const SapRow& section =
           row_of(assigned, "FRAME SECTION PROPERTIES 01 - GENERAL", "SectionName", assigned.required("AnalSect"));
       fe::Element e = element(row, "Frame", fe::ElementType::beam, section);
-      e.section = frame_section(section);
+      e.section = frame_section(section, frame);
       e.nodes = {joint(row, "JointI"), joint(row, "JointJ")};
       e.releases = releases(frame);
       if ((e.releases & bending) == bending) {
@@ -259,12 +272,15 @@ class SapReader {
                      "make it a shell");
       if (type.ends_with("THICK"))
         deck_.note_once("shells are thin plates here: the transverse shear of Shell-Thick is left out");
-      refuse_factors(section, {"F11Mod", "F22Mod", "F12Mod", "M11Mod", "M22Mod", "M12Mod", "V13Mod", "V23Mod", "MMod"});
+      refuse_factors(section, {"F11Mod", "F22Mod", "F12Mod", "V13Mod", "V23Mod", "MMod"});
+      const double bending = section.number_of("M11Mod", 1.0);
+      if (section.number_of("M22Mod", 1.0) != bending || section.number_of("M12Mod", 1.0) != bending || !(bending > 0.0))
+        section.fail("M11Mod, M22Mod and M12Mod are not one number above 0", "give one factor of bending");
       fe::Section s;
       s.name = section.get("Section");
       s.thickness_m = section.number_of("Thickness");
       if (!(s.thickness_m > 0.0)) section.fail("the thickness is not above 0", "give it");
-      s.bending_inertia_ratio = std::pow(section.number_of("BendThick", s.thickness_m) / s.thickness_m, 3);
+      s.bending_inertia_ratio = bending * std::pow(section.number_of("BendThick", s.thickness_m) / s.thickness_m, 3);
       fe::Element e = element(row, "Area", fe::ElementType::shell, section);
       e.section = deck_.add_section(s);
       for (int i = 1; i <= 4 && row.has(fmt::format("Joint{}", i)); ++i)

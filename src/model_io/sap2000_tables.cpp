@@ -45,6 +45,18 @@ double SapRow::number_of(const std::string& key, double fallback) const { return
 
 bool SapRow::yes(const std::string& key) const { return word(position(key)) == "YES"; }
 
+bool SapRow::is_neutral() const {
+  const bool factors = label.ends_with(" MODIFIERS"),
+             offsets = label.starts_with("FRAME INSERTION") || label.starts_with("FRAME OFFSET");
+  if (!factors && !offsets) return false;
+  for (std::size_t i = 1; i < fields.size(); ++i) {
+    const bool is_number = fields[i].find_first_of("+-.0123456789") == 0,
+               centroid = fields[i].starts_with("10 ") || fields[i].starts_with("11 ");
+    if (keys[i] == "CARDINALPT" ? !centroid : is_number && number(i) != (factors ? 1.0 : 0.0)) return false;
+  }
+  return true;
+}
+
 SapTables::SapTables(const std::filesystem::path& file) {
   files_.push_back(file);
   io::TextLines stream(file, io::longest_text);

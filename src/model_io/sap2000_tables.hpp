@@ -23,6 +23,8 @@ struct SapRow : DeckFields {
   [[nodiscard]] double number_of(const std::string& key) const;
   [[nodiscard]] double number_of(const std::string& key, double fallback) const;
   [[nodiscard]] bool yes(const std::string& key) const;
+  /// Whether an assignment says what holds without it: factors of 1 (keys ...Mod, f11 ... v23), offsets of 0, the centroid.
+  [[nodiscard]] bool is_neutral() const;
 
  private:
   [[nodiscard]] std::size_t position(const std::string& key) const;

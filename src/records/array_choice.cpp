@@ -7,9 +7,12 @@
 #include <array>
 #include <cmath>
 #include <string_view>
+#include <utility>
 
 #include "core/error.hpp"
 #include "io/letters.hpp"
+#include "records/take_clock.hpp"
+#include "records/text_cells.hpp"
 
 namespace twindeck::records {
 
@@ -22,44 +25,29 @@ std::string bare(const std::string& name) {
   return io::lower_case(name.substr(last == std::string::npos ? 0 : last + 1));
 }
 
-template <std::size_t n>
-bool is_one_of(const std::array<std::string_view, n>& names, std::string_view name) {
-  return std::find(names.begin(), names.end(), name) != names.end();
+/// "time_ms", "dt_us": the name without the unit at its end, and that unit [s]; 0 where it has none.
+std::pair<std::string, double> without_unit(const std::string& name) {
+  const std::string text = bare(name);
+  const std::size_t last = text.find_last_of("_ ([");
+  const double unit = last == std::string::npos ? 0.0 : time_unit_s(text.substr(last + 1, text.find_last_not_of(")]") - last));
+  return {unit > 0.0 ? text.substr(0, text.find_last_not_of("_ ([", last) + 1) : text, unit};
 }
 
 bool is_time(const std::string& name) {
-  static constexpr std::array<std::string_view, 9> names = {"t",    "time",        "times",      "time_s", "tempo",
-                                                            "zeit", "time_vector", "timevector", "tvec"};
-  return is_one_of(names, bare(name));
+  return is_one_of("|t|time|times|tempo|tiempo|zeit|time_vector|timevector|tvec|timestamp|timestamps|time_stamp|epoch|datenum|",
+                   without_unit(name).first);
 }
 
-bool is_rate(const std::string& name) {
-  static constexpr std::array<std::string_view, 10> names = {"fs",  "f_s",       "sf",   "sr",    "rate",
-                                                             "sps", "frequency", "freq", "fsamp", "fs_hz"};
-  static constexpr std::array<std::string_view, 4> counts = {"sample", "samples", "sample_count",
-                                                             "samplecount"};                // how many there are
-  return is_one_of(names, name) || (name.starts_with("samp") && !is_one_of(counts, name));  // "samplingrate", "sample_rate_hz"
+bool is_rate(const std::string& name) {  // "samplingrate", "sample_rate_hz"; "samples" tells how many there are
+  return is_one_of("|fs|f_s|sf|sr|rate|sps|frequency|freq|fsamp|fs_hz|", name) ||
+         (name.starts_with("samp") && !is_one_of("|sample|samples|sample_count|samplecount|", name));
 }
 
 bool is_step(const std::string& name) {
-  static constexpr std::array<std::string_view, 17> names = {"dt",
-                                                             "ts",
-                                                             "t_s",
-                                                             "delta_t",
-                                                             "deltat",
-                                                             "step",
-                                                             "time_step",
-                                                             "timestep",
-                                                             "sampling_interval",
-                                                             "sampling_period",
-                                                             "sampling_time",
-                                                             "samplinginterval",
-                                                             "samplingperiod",
-                                                             "samplingtime",
-                                                             "interval",
-                                                             "xincrement",
-                                                             "wf_increment"};
-  return is_one_of(names, name);
+  return is_one_of(
+      "|dt|ts|delta_t|deltat|step|time_step|timestep|sampling_interval|sampling_period|sampling_time|samplinginterval|"
+      "samplingperiod|samplingtime|interval|xincrement|wf_increment|",
+      name);
 }
 
 }  // namespace
@@ -114,6 +102,8 @@ void list_channels(const std::vector<NamedArray>& arrays, const ArrayChoice& cho
     channel.position = c + 1;
     channel.name =
         channels > 1 && matrix ? "column " + std::to_string(c + 1) : arrays[choice.data[static_cast<std::size_t>(c)]].name;
+    if (const std::size_t last = channel.name.find_last_of("/."); !matrix && last != std::string::npos)
+      channel.other_names = {channel.name.substr(last + 1)};
     info.channels.push_back(channel);
   }
 }
@@ -127,9 +117,12 @@ void name_channels(const std::vector<std::string>& texts, Index columns, RecordI
 
 double rate_of(const std::string& name, double value) {
   if (!(value > 0.0) || !std::isfinite(value)) return 0.0;
-  const std::string text = bare(name);
-  if (is_step(text)) return 1.0 / value;
-  return is_rate(text) ? value : 0.0;
+  if (bare(name) == "t_s") return 1.0 / value;
+  const auto [text, unit] = without_unit(name);
+  if (is_step(text)) return 1.0 / (value * (unit > 0.0 ? unit : StampedRows::likely_unit_s(value)));
+  return is_rate(bare(name)) ? value : 0.0;
 }
+
+double time_unit_of(const std::string& name) { return without_unit(name).second; }
 
 }  // namespace twindeck::records

@@ -243,7 +243,7 @@ void read_rate(const std::function<Eigen::MatrixXd(std::size_t)>& whole, const A
     StampedRows stamps;
     const Eigen::MatrixXd times = whole(at);
     for (const double time : times.reshaped()) stamps.add(time);
-    take_clock(stamps, 0.0, "'" + found.arrays[at].name + "'", info);
+    take_clock(stamps, time_unit_of(found.arrays[at].name), "'" + found.arrays[at].name + "'", info);
   }
   for (const auto& [name, value] : found.attributes) take_stated_rate(rate_of(name, value), "'" + name + "'", info);
   for (const std::size_t at : choice.scalars) {

@@ -47,7 +47,7 @@ void read_rate(const MatFile& mat, const ArrayChoice& choice, RecordInfo& info) 
     StampedRows stamps;
     const Eigen::VectorXd values = values_of(mat, times);
     for (const double time : values) stamps.add(time);
-    take_clock(stamps, 0.0, "'" + times.shape.name + "'", info);
+    take_clock(stamps, time_unit_of(times.shape.name), "'" + times.shape.name + "'", info);
   }
   for (const std::size_t at : choice.scalars) {
     const std::string& name = mat.arrays[at].shape.name;

@@ -111,10 +111,13 @@ class Rows {
   Rows(const TextLayout& layout, std::vector<std::size_t> columns)
       : layout_(layout), columns_(std::move(columns)), clock_(layout), row_(columns_.size()) {}
 
+  /// The stray line is a row but for text in a channel's cell.
+  [[nodiscard]] bool is_one_cell() const { return one_cell_; }
   enum class Kind { blank, row, stray, cut };
   /// What a line is; of a row the values and the time, of a stray line why it is no row.
   /// @param without_end  the file ends in this line: it may be cut inside its last number
   Kind take(std::string_view line, bool without_end) {
+    one_cell_ = false;
     auto cells = cells_of(line, layout_.separator);
     if (cells.empty() || (cells.size() == 1 && cells.front().empty())) return Kind::blank;
     if (cells.size() >= layout_.fewest && cells.size() < layout_.columns) cells.resize(layout_.columns);
@@ -140,6 +143,7 @@ class Rows {
       problem_ = fmt::format("has the time '{}'", stamp.substr(0, 40));
       return Kind::stray;
     }
+    one_cell_ = any && !text.empty();
     if (!any || !text.empty()) {
       problem_ = any ? text : "holds no number";
       return Kind::stray;
@@ -163,6 +167,7 @@ class Rows {
   std::vector<double> row_;
   std::optional<double> time_;
   std::string problem_;
+  bool one_cell_ = false;
   static constexpr std::size_t kNone = std::numeric_limits<std::size_t>::max();
   std::size_t fewest_decimals_ = kNone;  ///< letters from the decimal sign on in a row's last cell
 };
@@ -196,7 +201,8 @@ RecordInfo scan_text(const fs::path& file, const Visitor& visit, const ReadOptio
         throw InputError(
             {file.string(), in.number(), ""},
             fmt::format("'{}' is no row of the table: it {}", trimmed(line).substr(0, 60), rows.problem()),
-            "remove the line, or set skip_stray_lines = true in its [[record]] of campaign.toml to leave out such lines");
+            fmt::format("{}, or set skip_stray_lines = true in its [[record]] of campaign.toml to leave out such lines",
+                        rows.is_one_cell() ? "empty the cell, which then is a missing value" : "remove the line"));
       }
       if (++stray == 1) first_stray = in.number();
       continue;

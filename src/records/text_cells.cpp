@@ -24,6 +24,10 @@ std::string lower(std::string_view text) {
   return result;
 }
 
+bool is_one_of(std::string_view words, const std::string& word) {
+  return !word.empty() && words.find('|' + word + '|') != std::string_view::npos;
+}
+
 bool is_utf8(std::string_view text) {
   for (std::size_t at = 0; at < text.size();) {
     const std::size_t bytes = utf8_letter(text, at);
@@ -66,6 +70,31 @@ std::vector<std::string_view> cells_of(std::string_view line, char separator) {
   return cells;
 }
 
+namespace {
+
+/// "1,234.5" -> "1234.5": groups of three digits with one sign between them, before a decimal sign or as two groups and more.
+/// One group behind a comma or point alone ("1,234") may be decimals and is left.
+std::optional<std::string> without_groups(std::string_view cell, char decimal) {
+  const std::size_t end = std::min(cell.find(decimal), cell.size()), first = cell.find_first_of("0123456789");
+  if (first > 1 || first >= end) return {};
+  std::string joined(cell.substr(0, first));
+  std::string_view sign;
+  int groups = 0;
+  for (std::size_t at = first; at < end; ++groups) {
+    const std::size_t stop = std::min(cell.find_first_not_of("0123456789", at), end);
+    if (groups == 0 ? stop - at > 3 : stop - at != 3) return {};
+    joined += cell.substr(at, stop - at);
+    at = std::min(cell.find_first_of("0123456789", stop), end);
+    if (at < end && sign.empty()) sign = cell.substr(stop, at - stop);
+    if (at < end ? cell.substr(stop, at - stop) != sign : stop < end) return {};
+  }
+  const bool ambiguous = (sign == "," || sign == ".") && end == cell.size() && groups == 2;
+  if (ambiguous || !is_one_of("|,|.|'| |\xC2\xA0|\xE2\x80\xAF|\xE2\x80\x99|", std::string(sign))) return {};
+  return joined += cell.substr(end);
+}
+
+}  // namespace
+
 std::optional<double> number_in(std::string_view cell, bool decimal_comma) {
   constexpr double nan = std::numeric_limits<double>::quiet_NaN();
   if (cell.empty()) return nan;
@@ -77,33 +106,18 @@ std::optional<double> number_in(std::string_view cell, bool decimal_comma) {
   double value = 0.0;
   const auto [end, error] = std::from_chars(begin, stop, value);
   if (error == std::errc() && end == stop) return std::isfinite(value) ? value : nan;
-  static const std::array<std::string_view, 29> missing = {
-      "null", "na",      "n/a",   "n.a.",       "#n/a",      "none",     "missing",    "no data", "nodata",  "over",
-      "ovld", "ovl",     "ol",    "over range", "overrange", "overload", "underrange", "under",   "invalid", "bad",
-      "open", "#value!", "#num!", "#div/0!",    "#ref!",     "1.#inf",   "1.#qnan",    "1.#ind",  "1.#snan"};
+  if (const auto joined = without_groups(cell, decimal_comma ? ',' : '.')) return number_in(*joined, decimal_comma);
+  constexpr std::string_view missing =
+      "|null|na|n/a|n.a.|n.v.|k.a.|none|missing|lost|void|empty|undefined|no data|nodata|no signal|over|ovld|ovl|ol|overflow|"
+      "overload|over range|overrange|out of range|outofrange|sat|saturated|clip|clipped|under|underflow|underrange|invalid|"
+      "bad|open|error|err|fault|fail|failed|";
   std::string text = lower(cell);
   if (text.find_first_not_of("-*?.") == std::string::npos) return nan;  // "---", "****"
   text.erase(0, text.front() == '-' || text.front() == '+' ? 1 : 0);
-  if (text.starts_with("nan") || std::find(missing.begin(), missing.end(), text) != missing.end()) return nan;
+  const bool of_sheet = text.starts_with('#') || text.starts_with("1.#");  // "#N/A", "#WERT!", "1.#QNAN"
+  if ((of_sheet && text.find_first_of("23456789") == std::string::npos) || text.starts_with("nan") || is_one_of(missing, text))
+    return nan;
   return {};
-}
-
-bool is_date(std::string_view cell) {
-  constexpr std::array<std::size_t, 3> most_digits = {4, 2, 4};
-  std::size_t at = 0;
-  for (std::size_t part = 0; part < most_digits.size(); ++part) {
-    if (part > 0) {
-      if (at >= cell.size() || (cell[at] != '-' && cell[at] != '.' && cell[at] != '/')) return false;
-      ++at;
-    }
-    std::size_t digits = 0;
-    while (at < cell.size() && cell[at] >= '0' && cell[at] <= '9') {
-      ++at;
-      ++digits;
-    }
-    if (digits == 0 || digits > most_digits[part]) return false;
-  }
-  return at == cell.size();
 }
 
 }  // namespace twindeck::records

@@ -1,5 +1,7 @@
 #include "records/text_layout.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <cctype>
@@ -154,12 +156,9 @@ bool looks_like_unit(std::string_view cell) {
 }
 
 bool is_known_unit(std::string_view cell) {
-  static const std::array<std::string_view, 22> known = {
-      "s",   "sec",  "ms", "g", "mg", "m/s2",      "m/s^2", "m/s\xC2\xB2", "m/s/s", "v",   "mv",
-      "m/s", "mm/s", "mm", "m", "um", "\xC2\xB5m", "hz",    "kn",          "n",     "gal", "cm/s2"};
   std::string text = lower(trimmed(cell));
   if (text.size() > 2 && (text.front() == '[' || text.front() == '(')) text = text.substr(1, text.size() - 2);
-  return std::find(known.begin(), known.end(), text) != known.end();
+  return is_one_of("|s|sec|ms|g|mg|m/s2|m/s^2|m/s\xC2\xB2|m/s/s|v|mv|m/s|mm/s|mm|m|um|\xC2\xB5m|hz|kn|n|gal|cm/s2|", text);
 }
 
 /// "Acc 1 [m/s2]" -> name and unit.
@@ -246,13 +245,13 @@ void leave_stamps(TextLayout& layout) {
   layout.stamps = layout.date_and_time = false;
 }
 
-/// Columns of numbers that are time: by name if they rise, without a name the first if it runs like time. The finest is the
+/// Columns of numbers that are time: by name if they rise, without names any that runs like time. The finest is the
 /// record's clock.
 /// @param finest  stamps that differ, in the column that is found so far
 void find_numbers_of_time(const std::vector<std::vector<std::string_view>>& rows, std::size_t finest, TextLayout& layout) {
   for (std::size_t c = 0; c < layout.columns; ++c) {
     const bool named = !layout.names.empty() && is_time_name(layout.names[c]);
-    if (!number_in(rows.front()[c], layout.decimal_comma) || (!named && (c > 0 || !layout.names.empty()))) continue;
+    if (!number_in(rows.front()[c], layout.decimal_comma) || (!named && !layout.names.empty())) continue;
     const double unit = header_time_unit_s(layout, c);
     const bool other_unit = unit == 0.0 && !layout.names.empty() && !layout.units[c].empty();
     StampedRows stamps;
@@ -277,8 +276,7 @@ void find_numbers_of_time(const std::vector<std::vector<std::string_view>>& rows
   }
 }
 
-void find_time(const std::vector<std::string>& lines, std::size_t first, TextLayout& layout) {
-  const auto rows = first_rows(lines, first, layout);
+void find_time(const std::vector<std::vector<std::string_view>>& rows, TextLayout& layout) {
   if (rows.empty()) return;
   for (std::size_t c = 0; c < layout.columns && layout.time_column < 0; ++c) {
     const std::string_view cell = rows.front()[c];
@@ -334,6 +332,46 @@ std::vector<std::string> first_lines(const fs::path& file, TextLayout& layout) {
   return lines;
 }
 
+/// A column of whole numbers in groups of three ("1,234" beside "999") would be read as decimals.
+void refuse_thousands(const std::vector<std::vector<std::string_view>>& rows, const TextLayout& layout, const fs::path& file) {
+  constexpr long least = 10;  // cells that all have three digits behind their sign: decimals end in a zero now and then
+  const char sign = layout.decimal_comma ? ',' : '.';
+  for (std::size_t c = 0; c < layout.columns; ++c) {
+    long grouped = 0, whole = 0, others = 0;
+    for (const auto& row : rows) {
+      const std::string_view cell = row[c].substr(row[c].starts_with('-') || row[c].starts_with('+') ? 1 : 0);
+      const std::size_t at = cell.find(sign);
+      if (cell.empty() || cell == "0") continue;
+      const bool small = at == std::string_view::npos && cell.size() <= 3;
+      ++(small ? whole : at <= 3 && cell.size() == at + 4 && cell.front() != '0' ? grouped : others);
+    }
+    if (others > 0 || grouped < least || whole == 0) continue;
+    throw InputError({file.string(), layout.first_data_line, ""},
+                     fmt::format("column {}: '{}' stands before three digits in each number that has more, and in no other: it "
+                                 "parts thousands, not decimals",
+                                 c + 1, sign),
+                     "write the table again without signs between thousands");
+  }
+}
+
+/// No table was found: what stands in the way, in the middle of the file.
+[[noreturn]] void refuse_text(const std::vector<std::string>& lines, const fs::path& file) {
+  std::string reason;
+  std::size_t most = 0;
+  for (const char separator : {';', '\t', ',', '|', ' '}) {
+    const auto cells = lines.empty() ? std::vector<std::string_view>() : cells_of(lines[lines.size() / 2], separator);
+    const auto at = std::find_if(cells.begin(), cells.end(), [](std::string_view cell) { return !is_value(cell, false); });
+    if (cells.size() <= most || at == cells.end()) continue;
+    most = cells.size();
+    reason = fmt::format("; line {} has '{}' in column {}, which is no number and no known time stamp", lines.size() / 2 + 1,
+                         at->substr(0, 40), at - cells.begin() + 1);
+  }
+  throw InputError({file.string(), 0, ""}, "has no two lines of numbers that follow one another" + reason,
+                   "a record is a table of numbers, one line a sample, after any header: write other columns out of it; known "
+                   "are also NPY, MAT, "
+                   "HDF5, universal files");
+}
+
 }  // namespace
 
 TextLayout find_layout(const fs::path& file) {
@@ -360,18 +398,16 @@ TextLayout find_layout(const fs::path& file) {
       }
     }
   }
-  if (longest.length < 2) {
-    throw InputError(
-        {file.string(), 0, ""}, "has no two lines of numbers that follow one another",
-        "a record is a table of numbers, one line a sample, after any header; known are also NPY, MAT, HDF5, universal files");
-  }
+  if (longest.length < 2) refuse_text(lines, file);
   find_width(lines, runs, layout);
   std::size_t first = first_of_data(lines, runs, layout).first;
   while (first > 0 && is_incomplete_row(lines[first - 1], layout)) --first;
   layout.first_data_line = static_cast<long>(first) + 1;
   read_names(lines, first, layout);
   read_header_rate(lines, first, layout);
-  find_time(lines, first, layout);
+  const auto rows = first_rows(lines, first, layout);
+  refuse_thousands(rows, layout, file);
+  find_time(rows, layout);
   return layout;
 }
 

@@ -1,9 +1,18 @@
 #include "records/time_stamp.hpp"
 
+#include <algorithm>
+#include <array>
+#include <cctype>
 #include <cmath>
+#include <string>
+#include <utility>
+
+#include "records/text_cells.hpp"
 
 namespace twindeck::records {
 namespace {
+
+constexpr double kHour = 3600.0, kDay = 86400.0;  ///< [s]
 
 /// Days since 1970-01-01 of the proleptic Gregorian calendar. Reference: Hinnant, "chrono-compatible low-level date
 /// algorithms".
@@ -30,14 +39,22 @@ class Scanner {
     return digits > 0;
   }
   bool one_of(std::string_view characters) {
-    if (at_ >= text_.size() || characters.find(text_[at_]) == std::string_view::npos) return false;
+    if (!is_at(characters)) return false;
     ++at_;
     return true;
+  }
+  /// Letters from here on, those beyond ASCII too.
+  std::string_view word() {
+    const std::size_t from = at_;
+    while (at_ < text_.size() && (std::isalpha(static_cast<unsigned char>(text_[at_])) != 0 || (text_[at_] & 0x80) != 0)) ++at_;
+    return text_.substr(from, at_ - from);
   }
   void skip_blanks() {
     while (at_ < text_.size() && (text_[at_] == ' ' || text_[at_] == '\t' || text_[at_] == '"')) ++at_;
   }
-  [[nodiscard]] std::string_view rest() const { return text_.substr(std::min(at_, text_.size())); }
+  [[nodiscard]] bool is_at(std::string_view characters) const {
+    return at_ < text_.size() && characters.find(text_[at_]) != std::string_view::npos;
+  }
   [[nodiscard]] bool done() {
     skip_blanks();
     return at_ >= text_.size();
@@ -48,67 +65,156 @@ class Scanner {
   std::size_t at_ = 0;
 };
 
-/// hh:mm[:ss[.fff]] [AM|PM|Z]
-std::optional<double> time_of_day(Scanner& in) {
-  long hour = 0, minute = 0, second = 0;
+/// 1 to 12 by the first letters of a month's name in English, German, Italian, Spanish or French; 0 for another word.
+long month_of(std::string_view word) {
+  static constexpr std::string_view months =
+      "01jan 01gen 01ene 02feb 02fev 02f\xC3\xA9v 03mar 03m\xC3\xA4r 03mrz 04apr 04abr 04avr 05may 05mai 05mag 06jun 06giu "
+      "06juin 07jul 07lug 07juil 08aug 08ago 08ao\xC3\xBB 09sep 09set 10oct 10okt 10ott 11nov 12dec 12dez 12dic 12d\xC3\xA9"
+      "c";
+  const std::string name = lower(word);
+  for (const std::size_t letters : {4, 3}) {
+    const std::size_t at = name.size() < letters ? std::string::npos : months.find(name.substr(0, letters));
+    if (at != std::string::npos && months[at - 1] <= '9') return 10 * (months[at - 2] - '0') + months[at - 1] - '0';
+  }
+  return 0;
+}
+
+struct DayTime {
+  double seconds = 0.0;  ///< since midnight, by the clock that was read
+  double ahead = 0.0;    ///< [s] of UTC
+};
+
+/// "Z", "UTC", "CEST", "+02:00", "-0530", or nothing: what may stand behind a time, up to the end.
+/// @param name  letters before the scanner's place @param ahead  [s] of UTC by an offset in numbers
+bool ends_in_zone(Scanner& in, std::string_view name, double& ahead) {
+  constexpr std::size_t longest = 5;  // letters
+  const bool capitals = std::all_of(name.begin(), name.end(), [](char c) { return c >= 'A' && c <= 'Z'; });
+  if (name != "z" && (!capitals || name.size() > longest)) return false;
+  const double sign = in.is_at("-") ? -1.0 : 1.0;
+  if (!in.one_of("+-")) return in.done();
+  long hours = 0, minutes = 0;
   int digits = 0;
-  if (!in.number(hour, digits) || digits > 2 || !in.one_of(":") || !in.number(minute, digits) || digits > 2) return {};
-  double fraction = 0.0;
-  if (in.one_of(":")) {
+  if (!in.number(hours, digits) || digits > 4 || (in.one_of(":") && !in.number(minutes, digits))) return false;
+  ahead = sign * static_cast<double>(hours > 99 ? hours / 100 * 3600 + hours % 100 * 60 : hours * 3600 + minutes * 60);
+  return in.done();
+}
+
+/// hh:mm[:ss[.fff]] [AM|PM] [zone]; mm:ss.fff, as Excel shows times; behind a date hhmmss[.fff] too.
+std::optional<DayTime> time_of_day(Scanner& in, bool behind_date) {
+  long hour = 0, minute = 0, second = 0, part = 0;
+  int digits = 0;
+  if (!in.number(hour, digits)) return {};
+  if (behind_date && digits == 6) {
+    second = hour % 100;
+    minute = hour / 100 % 100;
+    hour /= 10000;
+  } else if (digits > 2 || !in.one_of(":") || !in.number(minute, digits) || digits > 2) {
+    return {};
+  } else if (in.one_of(":")) {
     if (!in.number(second, digits) || digits > 2) return {};
-    if (in.one_of(".,:")) {
-      long value = 0;
-      if (in.number(value, digits)) fraction = static_cast<double>(value) * std::pow(10.0, -digits);
-    }
+  } else if (in.is_at(".,")) {
+    second = std::exchange(minute, std::exchange(hour, 0));
   }
+  const double fraction =
+      in.one_of(".,:") && in.number(part, digits) ? static_cast<double>(part) * std::pow(10.0, -digits) : 0.0;
   in.skip_blanks();
-  const bool pm = in.one_of("pP"), am = !pm && in.one_of("aA");
-  if (pm || am) {
-    if (!in.one_of("mM")) return {};
-    hour = hour % 12 + (pm ? 12 : 0);
-  } else {
-    in.one_of("zZ");
+  std::string_view word = in.word();
+  if (const std::string half = lower(word); half == "am" || half == "pm") {
+    hour = hour % 12 + (half == "pm" ? 12 : 0);
+    in.skip_blanks();
+    word = in.word();
   }
-  if (hour > 24 || minute > 59 || second > 60 || !in.done()) return {};
-  return static_cast<double>(hour * 3600 + minute * 60 + second) + fraction;
+  DayTime time{static_cast<double>(hour * 3600 + minute * 60 + second) + fraction, 0.0};
+  if (hour > 24 || minute > 59 || second > 60 || !ends_in_zone(in, word, time.ahead)) return {};
+  return time;
+}
+
+/// Days since 1970 that the date at the scanner's place may mean: numbers and perhaps a month's name, a weekday before them.
+std::vector<double> days_at(Scanner& in) {
+  std::array<long, 3> part{};
+  int first_digits = 0, digits = 0, named = -1;
+  bool loose = false;
+  for (int k = 0; k < 3; ++k) {
+    if (k > 0 && !in.one_of("-./")) {
+      if (first_digits == 8) break;  // 20240517
+      loose = in.one_of(" ,");
+      if (!loose) return {};
+    }
+    in.skip_blanks();
+    long& value = part[static_cast<std::size_t>(k)];
+    std::string_view word = in.word();
+    value = month_of(word);
+    if (k == 0 && !word.empty() && value == 0) {  // a weekday
+      in.one_of(".,");
+      in.skip_blanks();
+      word = in.word();
+      value = month_of(word);
+    }
+    if (value > 0) named = k;
+    if (value > 0) continue;
+    if (!word.empty() || !in.number(value, digits) || (digits > (k == 1 ? 2 : 4) && (k > 0 || digits != 8))) return {};
+    if (k == 0) first_digits = digits;
+  }
+  if (named == 2 || (loose && named < 0)) return {};
+  std::vector<double> days;
+  const auto add = [&](long year, long month, long day) {
+    if (year < 100) year += year < 70 ? 2000 : 1900;
+    if (month >= 1 && month <= 12 && day >= 1 && day <= 31) days.push_back(static_cast<double>(days_of(year, month, day)));
+  };
+  const auto [a, b, c] = part;
+  if (first_digits == 8) {
+    add(a / 10000, a / 100 % 100, a % 100);
+  } else if (named == 0) {
+    add(c, a, b);
+  } else if (first_digits == 4) {
+    add(a, b, c);
+    if (b != c && named < 0) add(a, c, b);
+  } else {
+    add(c, b, a);
+    if (a != b && named < 0) add(c, a, b);
+  }
+  return days;
+}
+
+/// mm:ss.fff, which begins anew each hour.
+bool is_minutes(std::string_view text) {
+  const std::size_t colon = text.find(':');
+  return colon == text.rfind(':') && text.find_first_of(".,", colon) != std::string_view::npos && colon <= 2;
 }
 
 }  // namespace
 
 std::vector<double> time_stamp_meanings(std::string_view text) {
-  if (text.find(':') == std::string_view::npos) return {};
+  if (text.find_first_of(":T_ ") == std::string_view::npos || text.find_first_of("0123456789") == std::string_view::npos)
+    return {};
   {
     Scanner in(text);
-    if (const auto time = time_of_day(in)) return {*time};
+    if (const auto time = time_of_day(in, false)) return {time->seconds};
   }
   Scanner in(text);
-  long a = 0, b = 0, c = 0;
-  int a_digits = 0, digits = 0, c_digits = 0;
-  if (!in.number(a, a_digits) || !in.one_of("-./") || !in.number(b, digits) || !in.one_of("-./") || !in.number(c, c_digits))
-    return {};
-  in.one_of("Tt_");
+  std::vector<double> meanings = days_at(in);
+  in.one_of("Tt_,:");
   in.skip_blanks();
-  const auto time = time_of_day(in);
+  const auto time = meanings.empty() ? std::nullopt : time_of_day(in, true);
   if (!time) return {};
-  std::vector<double> meanings;
-  const auto add = [&](long year, long month, long day) {
-    if (year < 100) year += year < 70 ? 2000 : 1900;
-    if (month >= 1 && month <= 12 && day >= 1 && day <= 31)
-      meanings.push_back(86400.0 * static_cast<double>(days_of(year, month, day)) + *time);
-  };
-  if (a_digits == 4) {
-    add(a, b, c);
-    if (b != c) add(a, c, b);
-  } else {
-    add(c, b, a);
-    if (a != b) add(c, a, b);
-  }
+  for (double& meaning : meanings) meaning = kDay * meaning + time->seconds - time->ahead;
   return meanings;
 }
 
+bool is_date(std::string_view cell) {
+  constexpr std::size_t longest = 30;  // letters
+  return !cell.empty() && cell.size() <= longest && time_stamp_meanings(cell).empty() &&
+         !time_stamp_meanings(std::string(cell) + " 0:00").empty();
+}
+
 std::optional<double> TimeStampReader::next(std::string_view text) {
-  const std::vector<double> meanings = time_stamp_meanings(text);
+  std::vector<double> meanings = time_stamp_meanings(text);
   if (meanings.empty()) return {};
+  if (is_minutes(text)) {
+    constexpr double least = 0.98;  // of an hour, that a step back over a full hour is at least
+    if (last_ && *last_ - hours_ - meanings[0] > least * kHour) hours_ += kHour;
+    meanings[0] += hours_;
+  }
   std::size_t best = month_first_ && meanings.size() > 1 ? 1 : 0;
   if (last_) {
     for (std::size_t i = 0; i < meanings.size(); ++i) {

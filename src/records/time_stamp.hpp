@@ -8,8 +8,13 @@ namespace twindeck::records {
 
 /// Seconds that a time stamp may mean, since 1970-01-01 (a time of day alone: since midnight). Several where day and month can
 /// be exchanged: "03/04/2021 10:00:00" is 3 April or 4 March, the former first. Empty where the text is no time stamp. Read:
-/// 2021-04-03T10:00:00.25Z, 03.04.2021 10:00:00,25, 4/3/2021 10:00:00 PM, 10:00:00.25, with blanks, 'T' or '_' between.
+/// 2021-04-03T10:00:00.25Z, 03.04.2021 10:00:00,25, 4/3/2021 10:00:00 PM, 3-Apr-2021 10:00:00, April 3, 2021 10:00,
+/// 20210403T100000.25, 10:00:00.25, and minutes 00:00.25 as Excel shows them, with blanks, 'T' or '_' between; behind them a
+/// zone, whose offset (+02:00) is taken off a date's time.
 [[nodiscard]] std::vector<double> time_stamp_meanings(std::string_view text);
+
+/// "2021-04-03", "03.04.2021", "4/3/21", "3-Apr-2021": a date without a time.
+[[nodiscard]] bool is_date(std::string_view cell);
 
 /// Turns a column of time stamps into seconds, row by row: of the meanings of a stamp, the one that follows the last by the
 /// least. A logger that exchanges day and month on the first twelve days of a month is so put right.
@@ -22,6 +27,7 @@ class TimeStampReader {
 
  private:
   std::optional<double> last_;
+  double hours_ = 0.0;  ///< [s] of full hours that minutes and seconds passed
   bool month_first_ = false;
   long exchanged_ = 0;
 };

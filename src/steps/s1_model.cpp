@@ -29,7 +29,12 @@ Status run(const steps::ModelConfig& config, const dynamics::ReadModel& read, bo
   // 2. Its modes.
   dynamics::ModalSolver solver(loaded.system);
   const dynamics::EigenModes modes = solver.solve_available(loaded.theta, static_cast<int>(config.n_modes));
-  dynamics::refuse_more_modes_than_there_are(config.n_modes, loaded, modes);
+  const long found = modes.frequency_Hz.size();
+  if (config.n_modes != steps::ModelConfig().n_modes || found == 0)
+    dynamics::refuse_more_modes_than_there_are(config.n_modes, loaded, modes);
+  else if (found < config.n_modes)
+    context.say(
+        fmt::format("the model has {} of the {} modes that are computed where n_modes is not set", found, config.n_modes));
   dynamics::warn_of_unit_slips(context, loaded, modes.frequency_Hz, {});
 
   // 3. Modes and shapes, a picture, tables of stays, members, dampers and sizes, the model as a folder for any other step.

@@ -36,6 +36,15 @@ def diagnosis(**changes):
     return told | changes
 
 
+def bar_stays(*stays):
+    """The cause that step 9 finds without the catalogue, with a force a stay."""
+    return {"cause": "barstays", "location": "global", "cluster": ["barstays@global"], "probability": 0.999, "log_odds": 14.5, "split_by": "", "state": "",
+            "parameters": [parameter("modes_measured", "", 39.0, 39.0, 39.0), *(parameter(f"force_{s}_N", "N", 4e5, 3e5, 5e5) for s in stays)],
+            "place": {"words": "the whole structure", "x_m": None, "y_m": None, "z_m": None}, "rivals": [],
+            "sentence": f"Stays modelled as bars do not vibrate: {', '.join(stays)} swing with the deck. As cables they raise the modes explained from 27 to 33 of 39 measured",
+            "remedy": "Go and look."}
+
+
 def write_diagnosis(folder, told):
     """A finished folder of step 9."""
     made_up_study.write_rows(folder / "residuals.csv",

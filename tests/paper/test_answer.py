@@ -138,6 +138,7 @@ class OneStudy(unittest.TestCase):
         for count, words in ((1, "One cause explains it"), (2, "2 causes explain it together")):
             self.assertEqual(diagnosis.verdict_in_words({"verdict": "named", "effects": [{}] * count})[1], words)
         self.assertEqual(diagnosis.verdict_in_words({"verdict": "unknown", "effects": [{}] * 2})[1], diagnosis.VERDICTS["unknown"][1])
+        self.assertIn("No cause is named", diagnosis.verdict_in_words({"verdict": "unknown", "effects": []})[2], "nothing is named below")
 
     def test_a_gain_whose_interval_holds_zero_is_not_claimed(self):
         gain = made_up_answer.diagnosis()["gain"]
@@ -175,10 +176,14 @@ class Headline(unittest.TestCase):
 
     def test_unknown_names_no_cause(self):
         text = self.sentence(verdict="unknown")
-        self.assertTrue(text.startswith("None of the known causes explains the 40 measured values; that something is missing: over a million to 1"), text)
+        self.assertTrue(text.startswith("None of the known causes explains the 40 measured values; something is missing, over a million to 1"), text)
         self.assertNotIn("damper", text)
+        self.assertNotIn("look at", text, "the deck alone is no place")
         at = [{"location": "stay:NW3", "score": 4.0, "words": "the stay NW3, anchored at x = 27 m, y = 23 m, z = 13 m"}]
         self.assertTrue(self.sentence(verdict="unknown", localisation=at).endswith("; look at the stay NW3."))
+        at = [{"location": "dampers:C1,C2,C3,C4", "score": 4.0, "words": "the dampers C1, C2, C3 and C4"}]
+        self.assertTrue(self.sentence(verdict="unknown", localisation=at).endswith("; look at the dampers C1 to C4."))
+        self.assertEqual(headline.in_runs("C1, C2 and C4"), "C1, C2 and C4")
 
     def test_equally_well_only_within_a_factor_of_three(self):
         effect = made_up_answer.diagnosis()["effects"][0]
@@ -194,6 +199,13 @@ class Headline(unittest.TestCase):
         gain = made_up_answer.diagnosis()["gain"]
         self.assertIn("no gain shown", self.sentence(gain=gain | {"interval_pct": [-8.0, 66.0]}))
         self.assertIn("gain not measured", self.sentence(gain=gain | {"rows": 0}))
+
+    def test_two_causes_are_both_told_and_no_key_of_a_file_is(self):
+        friction = made_up_answer.diagnosis()["effects"][0]
+        text = self.sentence(effects=[made_up_answer.bar_stays("NE5", "SE5"), friction | {"sentence": "A sentence " + "that goes on " * 8}])
+        self.assertEqual(text, "2 stays modelled as bars vibrate; damper held by friction below a threshold force: the dampers C1 and C2; almost certain; error 25 % smaller.")
+        alone = self.sentence(effects=[made_up_answer.bar_stays("NE5")])
+        self.assertTrue(alone.startswith("1 stay modelled as a bar vibrates: the stay NE5; almost certain"), alone)
 
     def test_held_out_predictions_are_drawn_where_step_9_tells_them(self):
         """gain.raw: -6 % and -1 % of a measured 0.748 Hz."""

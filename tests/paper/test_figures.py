@@ -11,12 +11,13 @@ import pandas as pd
 HERE = Path(__file__).resolve().parent
 sys.path[:0] = [str(HERE), str(HERE.parents[1] / "paper")]
 
+import made_up_answer  # noqa: E402
 import made_up_bridge  # noqa: E402
 import made_up_study  # noqa: E402
 from twindeck_report.campaign_mac import mac_table  # noqa: E402
 from twindeck_report.deck_section import chord_forces, circle_through, mean_forces, sections  # noqa: E402
 from twindeck_report.errors import InputError  # noqa: E402
-from twindeck_report.figures import fig_02, fig_03  # noqa: E402
+from twindeck_report.figures import diagnosis, fig_01, fig_02, fig_03  # noqa: E402
 from twindeck_report.figures.mesh import read_mesh  # noqa: E402
 from twindeck_report.figures.stabilisation import apart  # noqa: E402
 from twindeck_report.figures.style import plt  # noqa: E402
@@ -86,6 +87,24 @@ class Figures(unittest.TestCase):
             self.assertFalse((study.results / "figures").exists(), "the figures that belong together are left alone")
             with self.assertRaisesRegex(InputError, "no figure fig_99; it has fig_01"):
                 write_figure(study, "fig_99")
+
+    def test_the_diagnosis_names_places_apart_and_without_keys(self):
+        folder = self.study.results / "s9_diagnosis"
+        at = [{"location": f"damper:C{i}", "score": 9.0 - i, "words": f"the damper C{i} at x = -59 m, y = 14 m, z = 12 m"} for i in range(1, 15)]
+        made_up_answer.write_diagnosis(folder, made_up_answer.diagnosis(localisation=at))
+        figure, data = diagnosis.draw(self.study)
+        figure.canvas.draw()
+        for axes in figure.axes:
+            boxes = sorted((t.get_window_extent() for t in axes.get_yticklabels() if t.get_text()), key=lambda box: box.y0)
+            self.assertTrue(all(below.y1 <= above.y0 for below, above in zip(boxes, boxes[1:])))
+            self.assertTrue(all(box.x0 >= 0 for box in boxes), "none is cut")
+        self.assertEqual(figure.axes[1].get_yticklabels()[0].get_text(), "the damper C1\nat x = -59 m, y = 14 m, z = 12 m")
+        self.assertEqual(figure.axes[0].get_yticklabels()[0].get_text(), "Frequencies (2)\nwindy")
+        self.assertEqual([t.get_text() for t in figure.axes[0].texts], ["1"], "3.4 standard deviations")
+        self.assertEqual(len(data), 2)
+
+    def test_step_10_stands_below_step_9(self):
+        self.assertEqual(sorted(["s10_reliability", "s1_model", "s9_diagnosis"], key=fig_01._number), ["s1_model", "s9_diagnosis", "s10_reliability"])
 
     def test_names_do_not_meet(self):
         places = [1.0, 1.01, 1.02, 2.0]

@@ -20,9 +20,9 @@ from twindeck_report.page import measured, poles, scripts  # noqa: E402
 from twindeck_report.page.drawing import read_drawing  # noqa: E402
 from twindeck_report.page.flowchart import duration, flowchart  # noqa: E402
 from twindeck_report.page.heatmap import colour, heatmaps  # noqa: E402
-from twindeck_report.page.places import where_data  # noqa: E402
+from twindeck_report.page.places import place_of, places, where_data  # noqa: E402
 from twindeck_report.page.processors import processors, reproduced  # noqa: E402
-from twindeck_report.page.shapes import packed  # noqa: E402
+from twindeck_report.page.shapes import _models, packed  # noqa: E402
 from twindeck_report.figures.flow import FlowStep  # noqa: E402
 from twindeck_report.study import Study  # noqa: E402
 
@@ -73,6 +73,28 @@ class Drawings(unittest.TestCase):
         )
         self.assertEqual((len(drawing.faces), len(drawing.lines)), (4, 7))
         self.assertEqual({drawing.ids[i] for i in drawing.names["NE1"]}, {"1", "12"})
+
+    def test_the_model_before_updating_is_shown_where_the_designed_one_has_other_nodes(self):
+        steps = ("s1_model", "s4_refinement", "s6_updating")
+        write(self.root / "workflow/study.toml", f"steps = {list(steps)}\n")
+        for token, x in zip(steps, (0, 1, 1)):
+            write(self.root / token / "model/nodes.csv", f"node,x_m,y_m,z_m\n1,{x},0,0\n")
+            write(self.root / token / "shapes.csv", "mode,point,direction,value\n")
+        self.assertEqual([title for _, title in _models(self.study)], ["Updated model", "Model before updating", "Model as designed"])
+        write(self.root / "s1_model/model/nodes.csv", "node,x_m,y_m,z_m\n1,1,0,0\n")
+        study = Study("made_up", self.root, self.root / "data", self.root / "workflow")
+        self.assertEqual([title for _, title in _models(study)], ["Updated model", "Model as designed"])
+
+    def test_a_group_of_dampers_or_stays_has_its_places(self):
+        self.model(["1,beam,NE1,,steel,,1,5", "2,beam,SE1,,steel,,2,6"])
+        write(self.root / "model/springs.csv", "spring,group,node,node2\nC1,damper_C,5,\nC2,damper_C,6,\n")
+        write(self.root / "model/model.toml", 'title = "made up"\n')
+        effect = {"cause": "barstays", "location": "global", "parameters": [{"name": f"force_{s}_N"} for s in ("NE1", "SE1")]}
+        where, words = place_of(effect)
+        self.assertEqual(words, "the stays NE1 and SE1")
+        dampers, stays = places(self.study, {}, "model", [{"location": "dampers:C1,C2", "score": 2.0}, {"location": where, "score": 1.0}])
+        self.assertEqual(dampers["spots"], [[0, 0, 1], [1, 0, 1]])
+        self.assertEqual((stays["spots"], len(stays["nodes"])), ([[0, 0, 0.5], [1, 0, 0.5]], 4))
 
     def test_a_triangle_beside_a_square_shares_its_edge(self):
         """A square and a triangle on one of its sides: three faces, five free edges."""
@@ -206,6 +228,8 @@ class Pieces(unittest.TestCase):
             self.assertIn(part, frequencies["svg"])
         self.assertIn(">D1, before: -2.00", deflection["svg"])
         self.assertNotIn("mode", deflection["svg"])
+        own = rows[:2].assign(mode=["still 5", "2"])
+        self.assertIn(">own mode 5</text>", heatmaps(own, False)[0]["svg"], "the title tells the condition")
         numbers = rows[1:].assign(mode=[2.0, np.nan])  # as pandas reads a column of numbers with an empty cell
         self.assertIn("mode 2, before: +1.00", heatmaps(numbers, False)[0]["svg"])
 

@@ -86,16 +86,23 @@ class ReliabilityFigures(unittest.TestCase):
         self.walls()
         told = reliability(self.study)
         self.assertIn("after 50 years?", told["question"])
-        vertical, stability, visible = told["answers"]
-        self.assertIn("15.0 m/s without dampers, year 0", vertical)  # half way from 0.2 at 10 to 0.8 at 20 m/s
-        self.assertIn("below 20 m/s without dampers, year 50", vertical)
-        self.assertIn("24.0 m/s (22.0 to 26.0) without dampers, year 0", stability)
-        self.assertIn("none found with dampers, C1 held, year 0", stability)
+        self.assertEqual(told["winds"]["head"], ["vertical comfort", "instability (5 to 95 %)"])
+        self.assertEqual(told["winds"]["rows"], [("without dampers, year 0", ["15.0 m/s", "24.0 m/s (22.0 to 26.0)"]),  # half way from 0.2 at 10 to 0.8 at 20 m/s
+                                                 ("without dampers, year 50", ["below 20 m/s", "23.0 m/s (21.0 to 25.0)"]),
+                                                 ("with dampers, C1 held, year 0", ["below 20 m/s", "none found"])])
+        [visible] = told["answers"]
         self.assertIn("edge: from a loss of 0.50 mm (5 % of the wall) on, in year 30", visible)
         self.assertIn("1 of 2 walls", visible)
         self.assertEqual([table["title"] for table in told["tables"]][-1], "What monitoring would see")
         (self.study.workflow / "study.toml").write_text('steps = ["s1_model"]\n')
         self.assertIsNone(reliability(self.study))
+
+    def test_the_wall_seen_first_is_the_one_of_the_least_years(self):
+        """A wall of 5 % in year 30 beside one of 8 % in year 12."""
+        self.walls()
+        (self.step / "visible.csv").write_text(VISIBLE + "3,foot_rail,0.01,0.0008,8,12,0.002,3.29,1X,-0.5\n3,rail,0.01,0.0008,8,12,0.002,3.29,1X,-0.5\n")
+        [visible] = reliability(self.study)["answers"]
+        self.assertIn("first see the corrosion of foot rail and 1 more: from a loss of 0.80 mm (8 % of the wall) on, in year 12", visible)
 
     def test_fragility_holds_probabilities_bands_and_the_median_of_the_critical_speed(self):
         figure, data = fragility.draw(self.study)
@@ -113,7 +120,7 @@ class ReliabilityFigures(unittest.TestCase):
         figure, _ = reliability_years.draw(self.study)
         left, middle, right = figure.axes
         self.assertEqual(sorted(round(bar.get_width(), 9) for bar in left.patches), [0.1, 0.9])
-        self.assertEqual([label.get_text() for label in left.get_yticklabels()], ["structural damping", "rho 1"])
+        self.assertEqual([label.get_text() for label in left.get_yticklabels()], ["structural damping", "$\\rho_{\\mathrm{1}}$"])
         self.assertEqual(list(middle.lines[0].get_ydata()), [24, 23])
         self.assertAlmostEqual(right.patches[0].get_height(), -5.0, delta=1e-9)
 

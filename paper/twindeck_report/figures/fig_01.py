@@ -19,7 +19,7 @@ def draw(study: Study):
     campaign = study.campaign()
     studies = [study] if campaign is study else [campaign, study]
     steps = {each.results.name: flow(each) for each in studies}
-    order = sorted({s.token for found in steps.values() for s in found})
+    order = sorted({s.token for found in steps.values() for s in found}, key=_number)
     tops = {token: -i * (HEIGHT + GAP) for i, token in enumerate(order)}
     depth = len(order) * (HEIGHT + GAP)
     figure, axes = plt.subplots(figsize=(1.2 + 4.6 * len(studies), 0.62 * depth + 0.5))
@@ -43,6 +43,11 @@ def draw(study: Study):
     axes.axis("off")
     figure.subplots_adjust(0.01, 0.01, 0.99, 0.99)
     return figure, pd.DataFrame(rows)
+
+
+def _number(token: str) -> int:
+    """s10 comes after s9."""
+    return int(token[1:].partition("_")[0])
 
 
 def _box(axes, left, top, step):

@@ -2,6 +2,7 @@
 import numpy as np
 
 from ..study import Study
+from .sensitivity_map import symbol
 from .style import ACCENT, INK, PALE, WARN, plt
 
 NAME = "reliability_years"
@@ -22,19 +23,18 @@ def draw(study: Study):
     shares = shares[shares.max(axis=1) > LEAST_SHARE] if len(shares) else shares
     for k, model in enumerate(shares.columns):
         left.barh(np.arange(len(shares)) + 0.8 * (k + 0.5) / len(shares.columns) - 0.4, shares[model], 0.8 / len(shares.columns) * 0.9,
-                  color=plt.cm.Blues(0.35 + 0.6 * k / max(len(shares.columns) - 1, 1)), label=model)
-    left.set_yticks(range(len(shares)), [name.replace("parameter:", "").replace("_", " ") for name in shares.index])
+                  color=_colour(k, len(shares.columns)), label=model)
+    left.set_yticks(range(len(shares)), [symbol(name.removeprefix("parameter:")) if name.startswith("parameter:") else name.replace("_", " ") for name in shares.index])
     left.invert_yaxis()
-    left.set_xlabel("share of the variance of ln V_cr")
+    left.set_xlabel("share of the variance of ln $V_{cr}$")
     if len(shares):
         left.legend(frameon=False, fontsize=7, title="model", title_fontsize=7)
     left.set_title("importance", loc="left")
     speeds = years[(years["quantity"] == "critical_speed") & (years["dampers"] == "off")]
     spread = 0.012 * max(years["years"].max(), 1.0)
     for k, (place, rows) in enumerate(speeds.groupby("place", sort=False)):
-        colour = WARN if k == 0 else plt.cm.Blues(0.35 + 0.1 * k)
         x = rows["years"] + spread * (k - (speeds["place"].nunique() - 1) / 2)
-        middle.errorbar(x, rows["value"], [rows["value"] - rows["low"], rows["high"] - rows["value"]], color=colour, marker="o", markersize=3, capsize=2, linewidth=1.2, label=place)
+        middle.errorbar(x, rows["value"], [rows["value"] - rows["low"], rows["high"] - rows["value"]], color=_colour(k, speeds["place"].nunique()), marker="o", markersize=3, capsize=2, linewidth=1.2, label=place)
     middle.set_xlabel("years in service")
     middle.set_ylabel("critical speed (m/s)")
     if len(speeds):
@@ -49,3 +49,8 @@ def draw(study: Study):
     right.set_ylabel(f"change of frequency to year {modes.columns.max():g} (%)")
     right.grid(axis="y", color=PALE, linewidth=0.5)
     return figure, years
+
+
+def _colour(k: int, count: int):
+    """The same for a model in both panels; the first one, which the limits are of, is red."""
+    return WARN if k == 0 else plt.cm.Blues(0.35 + 0.6 * k / max(count - 1, 1))

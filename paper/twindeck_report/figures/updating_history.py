@@ -45,7 +45,7 @@ def draw(study: Study):
                                wspace=0.3, left=0.09, right=0.92, top=0.95, bottom=bottom)
     cost = figure.add_subplot(grid[0, :])
     cost.plot(count, 1e3 * rows["cost"], color=ACCENT, marker="o", markersize=3.5, linewidth=1.2)
-    cost.set_ylim(bottom=0.0)
+    cost.set_ylim(0.0, 1.1e3 * rows["cost"].max())
     cost.set_ylabel("cost F (10$^{-3}$)")
     cost.set_title(f"start {start}: {len(rows) - 1} iterations of the solver, {rows['outer'].nunique()} states of prestress", loc="right")
     _radius(cost, count, rows)
@@ -64,12 +64,12 @@ def draw(study: Study):
 def _radius(axes, count, rows):
     """Of the trust region, and the length of each step, on an axis of their own."""
     beside = axes.twinx()
-    for column, words, style in (("trust_radius", "radius", "-"), ("step_norm", "step", (0, (1, 2)))):
+    for column, words, style in (("trust_radius", "radius of the trust region", "-"), ("step_norm", "length of the step", (0, (1, 2)))):
         shown = rows[column] > 0
         beside.semilogy(count[shown], rows[column][shown], color=GOOD, linewidth=0.9, linestyle=style, label=words)
     beside.spines["right"].set_visible(True)
     beside.set_ylabel("radius, step", color=GOOD)
-    beside.legend(frameon=False, fontsize=7, loc="upper right")
+    beside.legend(frameon=False, fontsize=7, loc="lower left", bbox_to_anchor=(0.0, 1.0), ncols=2, borderaxespad=0.2)
 
 
 def _parameter(axes, count, values, row):

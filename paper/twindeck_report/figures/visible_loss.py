@@ -25,6 +25,7 @@ def draw(study: Study):
     figure, (plan, bars) = plt.subplots(1, 2, figsize=(11.5, 4.6), width_ratios=(2.2, 1))
     figure.subplots_adjust(0.05, 0.13, 0.95, 0.93, wspace=0.42)
     draw_plan(plan, mesh)
+    plan.set_ylabel("Y (m)")
     largest = max(table["share_pct"].max(), 1e-9) if table["share_pct"].notna().any() else 1.0
     scale = plt.Normalize(0.0, largest)
     for row in table.to_dict("records"):
@@ -44,13 +45,13 @@ def draw(study: Study):
         if row["located_loss_m"] == row["located_loss_m"]:
             bars.barh(i, 1e3 * row["located_loss_m"], fill=False, edgecolor=INK, height=0.72, linewidth=0.9)
         bars.annotate(f"year {row['years']:.0f}" if seen else "not seen", (bars.get_xlim()[1], i), fontsize=7, va="center", xytext=(1.02, i), textcoords=("axes fraction", "data"))
-    bars.set_yticks(range(len(walls)), [_name(table[table["wall"] == wall]["section"]) for wall in walls["wall"]], fontsize=7)
+    bars.set_yticks(range(len(walls)), [named(table[table["wall"] == wall]["section"]) for wall in walls["wall"]], fontsize=7)
     bars.set_ylim(max(len(walls), 2) - 0.4, -0.6)
     bars.set_xlabel("loss of one surface (mm)")
     plan.set_title("by corroding wall", loc="left")
     return figure, table
 
 
-def _name(sections) -> str:
+def named(sections, between="\n") -> str:
     names = [name.replace("_", " ") for name in sections]
-    return names[0] if len(names) == 1 else f"{names[0]}\nand {len(names) - 1} more"
+    return names[0] if len(names) == 1 else f"{names[0]}{between}and {len(names) - 1} more"

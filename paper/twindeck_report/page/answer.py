@@ -41,7 +41,7 @@ def screen(study: Study, told: dict | None) -> dict:
     settings = study.read_toml(study.workflow / "study.toml")
     for_bars, for_table = telling.telling(study, told)
     found = {"title": settings.get("title", study.name), "kind": _kind(study, settings), "picture": picture.marked(study, settings, told),
-             "bars": telling.bars(for_bars), "states": telling.table(for_table), "updating": None if study.has_paper() else _updating(study), "sentences": [],
+             "bars": telling.bars(for_bars), "states": telling.table(for_table), "in_bars": _other_model(for_bars, for_table), "updating": None if study.has_paper() else _updating(study), "sentences": [],
              "score": None, "told": told, "tone": "", "sentence": _without_diagnosis(study, for_table)}
     if told is not None:
         rows, beyond = residual_counts(study)
@@ -49,6 +49,11 @@ def screen(study: Study, told: dict | None) -> dict:
         found |= {"tone": tone, "heading": title, "sentence": headline.of_diagnosis(told, rows, beyond, _mean_errors(study)),
                   "sentences": [(question, told["sentences"].get(key, "")) for key, question in QUESTIONS], "score": _score(study, _path(study))}
     return found
+
+
+def _other_model(for_bars, for_table) -> str:
+    """The model of the bars, where the table of states shows another one."""
+    return "" if for_bars is None or for_table is None or for_bars is for_table else for_bars.after or for_bars.before
 
 
 def _without_diagnosis(study: Study, told) -> str:

@@ -42,7 +42,7 @@ def log_chart(curves: list, decades: tuple, marks: list, label: str) -> str:
     for t in ticks(low, high, 6):
         body += f'<path class="grid" d="M{x(t):.1f} {TOP}V{HEIGHT - BOTTOM}"/><text class="tick" x="{x(t):.1f}" y="{HEIGHT - BOTTOM + 14}" text-anchor="middle">{t:g}</text>'
     for t in range(floor, top + 1, max(1, math.ceil((top - floor) / 5))):
-        body += f'<path class="grid" d="M{LEFT} {y(t):.1f}H{WIDTH - RIGHT}"/><text class="tick" x="{LEFT - 5}" y="{y(t) + 4:.1f}" text-anchor="end">1e{t}</text>'
+        body += f'<path class="grid" d="M{LEFT} {y(t):.1f}H{WIDTH - RIGHT}"/><text class="tick" x="{LEFT - 5}" y="{y(t) + 4:.1f}" text-anchor="end">10<tspan class="power" dy="-4">{t}</tspan></text>'
     last = -99.0
     for name, f in sorted(marks, key=lambda m: m[1]):
         if low <= f <= high:

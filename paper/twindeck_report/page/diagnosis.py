@@ -24,6 +24,8 @@ def verdict_in_words(told: dict, beyond: int = 0) -> tuple:
     if told["verdict"] == "none" and beyond:
         tone, title = "warn", "No cause is named, and the model does not explain all that was measured"
         meaning = f"{beyond} measured value{'s stand' if beyond > 1 else ' stands'} out; no cause of the catalogue explains enough of that to be named."
+    if told["verdict"] == "unknown" and not told["effects"]:
+        meaning = "No cause is named: with the best one in it the model still misses what was measured. Below is where a change would explain most."
     if told["verdict"] == "named" and len(told["effects"]) > 1:
         title = f"{len(told['effects'])} causes explain it together"
     if told["verdict"] == "ambiguous" and told["effects"] and not any(equally_well(e) for e in told["effects"]):

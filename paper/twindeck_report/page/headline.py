@@ -5,6 +5,8 @@ import re
 import tomllib
 from pathlib import Path
 
+from .places import place_of, stays_of
+
 MOST_WORDS = 25  # of the first sentence: what a reader takes in at a glance
 MOST_OF_THE_CAUSE = 16  # words, so that odds and gain still fit behind them
 ALIKE = 3.0  # ratio of probabilities up to which two causes explain the data equally well: by less no one would bet on either
@@ -53,19 +55,46 @@ def cause_in_words(effect: dict) -> str:
     told = re.sub(r"\s*\([^()]*\)", "", effect.get("sentence") or "").split(";")[0].strip().rstrip(".")
     if told and words(told) <= MOST_OF_THE_CAUSE:
         return told
-    place = re.sub(r"\s*\([^()]*\)", "", (effect.get("place") or {}).get("words") or "")
-    title = _title(effect["cause"])
-    for where in (place, re.split(" at | round |,", place)[0]):  # the name of a place says more than its coordinates
-        if where and words(f"{title}: {where}") <= MOST_OF_THE_CAUSE:
-            return f"{title}: {where}"
-    return title
+    title = _title(effect)
+    return next((f"{title}: {where}" for where in _places(place_of(effect)[1]) if words(f"{title}: {where}") <= MOST_OF_THE_CAUSE), title)
 
 
-def _title(cause: str) -> str:
-    path = CATALOGUE / f"{cause}.toml"
-    if not path.is_file():
-        return f"Cause {cause}"
-    return tomllib.loads(path.read_text(encoding="utf-8"))["hypothesis"].get("title", f"Cause {cause}")
+def causes_in_words(effects: list) -> list:
+    """Ways to tell the causes, the one that says most first."""
+    first = cause_in_words(effects[0])
+    if len(effects) == 1:
+        return [first]
+    titles = [_title(e) for e in effects]
+    told = [title if stays_of(e) else ": ".join([title, *_places(place_of(e)[1])[1:2]]) for e, title in zip(effects, titles)]
+    return [_listed(told), _listed(titles), f"{first} and {len(effects) - 1} more cause{'s' if len(effects) > 2 else ''}"]
+
+
+def _listed(told: list) -> str:
+    return "; ".join([told[0], *(t[:1].lower() + t[1:] for t in told[1:])])
+
+
+def _places(told: str) -> list:
+    """A place in words, and shorter: without what stands in brackets, up to the first coordinate, its name alone."""
+    whole = in_runs(re.sub(r"\s*\([^()]*\)", "", told))
+    name = re.split(r",? anchored| at | round ", whole)[0]
+    return [w for w in (whole, re.split(r"(?<= m),", whole)[0], name if re.search(r"[A-Z\d]", name) else "") if w]
+
+
+def in_runs(told: str) -> str:
+    """'C1 to C4' for 'C1, C2, C3 and C4'."""
+    def short(found):
+        numbers = [int(n) for n in re.findall(r"\d+", found[0])]
+        return f"{found[1]}{numbers[0]} to {found[1]}{numbers[-1]}" if numbers == list(range(numbers[0], numbers[-1] + 1)) else found[0]
+    return re.sub(r"\b([A-Za-z]+)\d+(?:, \1\d+)+ and \1\d+\b", short, told)
+
+
+def _title(effect: dict) -> str:
+    stays = stays_of(effect)
+    if stays:  # step 9 finds these by themselves, without an entry of the catalogue
+        return f"{len(stays)} stays modelled as bars vibrate" if len(stays) > 1 else "1 stay modelled as a bar vibrates"
+    path = CATALOGUE / f"{effect['cause']}.toml"
+    title = tomllib.loads(path.read_text(encoding="utf-8"))["hypothesis"].get("title") if path.is_file() else None
+    return title or f"Cause {effect['cause']}"
 
 
 def of_diagnosis(told: dict, rows: int, beyond: int, updating: tuple | None) -> str:
@@ -78,18 +107,16 @@ def of_diagnosis(told: dict, rows: int, beyond: int, updating: tuple | None) -> 
         against = told["detection"]["log_odds"]
         return _joined(first, [f"no cause needed: {odds_of_log(-against)}" if against < 0 and not beyond else "", _updated(updating)])
     if told["verdict"] == "unknown":
-        near = re.sub(r"\s*\([^()]*\)", "", (told.get("localisation") or [{}])[0].get("words", "")).split(",")[0]
-        first = f"None of the known causes explains the {rows} measured values"
-        return _joined(first, [f"that something is missing: {odds_of_log(told['detection']['log_odds'])}", f"look at {near}" if near else ""])
+        first = _joined(f"None of the known causes explains the {rows} measured values", [f"something is missing, {odds_of_log(told['detection']['log_odds'])}"])
+        near = _places((told.get("localisation") or [{}])[0].get("words", ""))
+        return next((whole for where in near if (whole := _joined(first[:-1], [f"look at {where}"])) != first), first)
     leader, alike = effects[0], equally_well(effects[0])
-    first = cause_in_words(leader)
-    if len(effects) > 1:
-        first += f" and {len(effects) - 1} more cause{'s' if len(effects) > 2 else ''}"
     certain = f"not told apart from {len(alike)} other{'s' if len(alike) > 1 else ''}" if alike else sure(leader["probability"])
     odds_too = certain if alike else f"{certain}, {odds_of(leader['probability'])}"
     gain, on_what = _gained(told.get("gain") or {})
-    whole = [_joined(first, parts) for parts in ([odds_too, gain + on_what], [odds_too, gain], [certain, gain])]
-    return max(whole, key=lambda text: text.count(";"))  # of those that say most the first
+    tails = ([odds_too, gain + on_what], [odds_too, gain], [certain, gain])
+    firsts = causes_in_words(effects)
+    return next((_joined(first, parts) for first in firsts for parts in tails if words(first) + sum(map(words, parts)) <= MOST_WORDS), _joined(firsts[-1], [certain]))
 
 
 def _gained(gain: dict) -> tuple:

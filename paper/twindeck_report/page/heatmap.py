@@ -3,6 +3,7 @@ import html
 
 import numpy as np
 
+OWN = "own mode "
 CELL, FULL = 15, 5.0  # [px]; the colour is full at this many standard deviations
 NAMES = {"frequency_Hz": "Frequencies", "damping_ratio_pct": "Damping ratios", "shape": "Shapes", "shape_imag": "Shapes, imaginary parts",
          "stay_frequency_Hz": "Frequencies of the stays", "rms_m_s2": "RMS accelerations", "static_m": "Static displacements",
@@ -23,6 +24,7 @@ def heatmaps(rows, extended: bool) -> list:
     for (kind, condition), part in rows.fillna({"channel": "", "condition": ""}).groupby(["type", "condition"], sort=False):
         title = f"{NAMES.get(kind, kind.replace('_', ' '))}{', ' + str(condition).replace('_', ' ') if condition else ''}"
         many = part["channel"].nunique() > 1
+        part = part.assign(mode=[_within(mode, condition) for mode in part["mode"]])
         sides = [(side, _grid(part, f"residual_{side}", many)) for side in (("before", "after") if extended else ("before",))]
         found.append({"title": f"{title}: {len(part)} rows", "svg": _pair(sides) if many else _strip(sides)})
     return found
@@ -32,10 +34,17 @@ def _grid(part, column: str, many: bool) -> dict:
     """(row, column) -> (value, held out): modes over sensors, or one row over modes; a row without a mode is its sensor's."""
     found = {}
     for r in part.to_dict("records"):
-        mode = "" if r["mode"] != r["mode"] else f"mode {label(r['mode'])}"
+        mode = "" if r["mode"] != r["mode"] else label(r["mode"])
+        mode = mode if not mode or mode.startswith(OWN) else f"mode {mode}"
         if np.isfinite(r[column]):
             found[(mode, str(r["channel"])) if many else ("", mode or str(r["channel"]))] = (r[column], r["held_out"] == 1)
     return found
+
+
+def _within(mode, condition):
+    """A mode that one condition alone has bears that condition's name, which the title tells already."""
+    own = f"{condition} "
+    return OWN + mode.removeprefix(own) if isinstance(mode, str) and condition and mode.startswith(own) else mode
 
 
 def label(mode) -> str:

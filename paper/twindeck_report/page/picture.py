@@ -6,7 +6,7 @@ import numpy as np
 from ..study import Study
 from .drawing import read_drawing
 from .measured import read_measured
-from .places import places
+from .places import place_of, places
 from .still import view
 
 WIDTH, MARGIN = 480, 34  # of the view box: legible on a telephone
@@ -81,8 +81,8 @@ def causes(study: Study, settings: dict, folder, told: dict | None) -> list:
     if told is None or told["verdict"] == "none":
         return []
     effects = told["effects"] if told["verdict"] != "unknown" else []
-    entries = [{"location": e["location"], "words": (e.get("place") or {}).get("words") or e["location"], "score": -i, "place": e.get("place") or {}}
-               for i, e in enumerate(effects)]
+    entries = [{"location": where, "words": told or where, "score": -i, "place": e.get("place") or {}}
+               for i, e in enumerate(effects) for where, told in (place_of(e),)]
     entries = entries or [{**e, "place": {}} for e in sorted(told.get("localisation", []), key=lambda e: -e["score"])[:1]]
     at = places(study, settings, folder, entries)
     for entry, one in zip(entries, at):
@@ -101,7 +101,7 @@ def _mark(cause: dict, drawing, place, number) -> str:
         faces = [f for f in drawing.faces[:MOST_LINES] if all(i in held for i in f)]
         body += '<path class="marked plate" d="' + "".join("M" + "L".join(f"{at[i][0]:.1f} {at[i][1]:.1f}" for i in f) + "z" for f in faces) + '"/>'
         anchor = at[sorted(held)].mean(axis=0)
-    if cause["spots"]:
+    if cause["spots"] and not (cause["nodes"] and len(cause["spots"]) > 1):  # the parts of a group are coloured
         at = place(np.array(cause["spots"][:MOST_SPOTS]))
         body += "".join(f'<circle class="ring" cx="{x:.1f}" cy="{y:.1f}" r="13"/><circle class="spot" cx="{x:.1f}" cy="{y:.1f}" r="4.5"/>' for x, y in at)
         anchor = at[0]

@@ -19,6 +19,20 @@ def places(study: Study, settings: dict, folder: str | None, localisation: list)
     return [{"location": e["location"], "words": e.get("words", e["location"]), "score": e["score"], **finder.find(e["location"])} for e in ordered]
 
 
+def stays_of(effect: dict) -> list:
+    """Stays that the extended model has as cables, where that is the cause; step 9 names them by their forces alone."""
+    names = [p["name"] for p in effect.get("parameters", [])] if effect.get("cause") == "barstays" else []
+    return [name.removeprefix("force_").removesuffix("_N") for name in names if name.startswith("force_")]
+
+
+def place_of(effect: dict) -> tuple:
+    """(location, in words) of a cause."""
+    stays = stays_of(effect)
+    if stays:
+        return "stays:" + ",".join(stays), "the stay" + ("s " if len(stays) > 1 else " ") + " and ".join(filter(None, [", ".join(stays[:-1]), stays[-1]]))
+    return effect["location"], (effect.get("place") or {}).get("words") or ""
+
+
 def where_data(found: list, nodes: int) -> dict:
     """Scores as colours of the drawing's nodes, and spots for what acts at a point."""
     score = np.zeros(nodes)
@@ -27,7 +41,7 @@ def where_data(found: list, nodes: int) -> dict:
         at = [i for i in entry["nodes"] if i < nodes]
         score[at] = np.maximum(score[at], entry["score"])
         spots += [
-            {"name": entry["location"], "score": round(entry["score"], 2), "at": [round(float(x), 3) for x in spot]}
+            {"name": entry.get("words", entry["location"]), "score": round(entry["score"], 2), "at": [round(float(x), 3) for x in spot]}
             for spot in entry["spots"]
         ]
     most = max([LEAST_FULL, *(entry["score"] for entry in found)])
@@ -53,20 +67,21 @@ class _Finder:
 
     def find(self, location: str) -> dict:
         kind, _, names = location.partition(":")
-        parts = names.split(",")
+        kind, parts = kind.removesuffix("s"), names.split(",")
         spots, nodes = [], []
-        if kind in ("node", "nodes"):
+        if kind == "node":
             spots = [self.nodes[p] for p in parts if p in self.nodes]
-        elif kind in ("channel", "channels"):
+        elif kind == "channel":
             spots = [self.channels[p] for p in parts if p in self.channels]
         elif kind in ("support", "damper"):
-            spots = self._attached(names)
+            spots = [spot for part in parts for spot in self._attached(part)]
         elif self.drawing is not None and kind in ("element", "stay"):
-            nodes = self.drawing.elements.get(names, []) if kind == "element" else self.drawing.names.get(names, [])
-            if nodes:
-                spots = [self.drawing.points[nodes].mean(axis=0).tolist()]
+            of = self.drawing.elements if kind == "element" else self.drawing.names
+            each = [sorted(of[part]) for part in parts if part in of]
+            nodes = [i for one in each for i in one]
+            spots = [self.drawing.points[one].mean(axis=0).tolist() for one in each]
         elif self.drawing is not None and kind == "group":
-            nodes = sorted({i for group in self.groups.get(names, [names]) for i in self.drawing.groups.get(group, [])})
+            nodes = sorted({i for part in parts for group in self.groups.get(part, [part]) for i in self.drawing.groups.get(group, [])})
         return {"spots": spots, "nodes": nodes}
 
     def _attached(self, name: str) -> list:

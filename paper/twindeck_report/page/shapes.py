@@ -20,9 +20,7 @@ def shape_data(study: Study, settings: dict, causes: list = ()) -> dict | None:
     """None when there is neither a model with elements nor a measured shape whose sensors have places. `causes`: [{words, spots}] to mark on the models."""
     meshes, sets, first = [], [], None
     marked = [{"kind": "cause", "at": [float(x) for x in spot], "words": cause["words"]} for cause in causes for spot in cause["spots"]]
-    models = [m for m in MODELS if m[0] in study.steps() and (study.results / m[0] / "shapes.csv").is_file()]
-    if any(token == "s6_updating" for token, _ in models):
-        models = [m for m in models if m[0] != "s4_refinement"]
+    models = _models(study)
     for token, title in models:
         drawing = read_drawing(study, f"{token}/model")
         if drawing is None:
@@ -47,6 +45,22 @@ def shape_data(study: Study, settings: dict, causes: list = ()) -> dict | None:
     if not sets:
         return None
     return {"meshes": meshes, "sets": sets}
+
+
+def _models(study: Study) -> list:
+    """The models that have shapes. The refined one stands between the updated and the designed one only where it alone has the updated one's nodes:
+    there the page can colour what updating changed."""
+    models = [m for m in MODELS if m[0] in study.steps() and (study.results / m[0] / "shapes.csv").is_file()]
+    tokens = [token for token, _ in models]
+    if "s6_updating" not in tokens:
+        return models
+    between = "s4_refinement" in tokens and _same_nodes(study, "s4_refinement") and not _same_nodes(study, "s1_model")
+    return [(token, "Model before updating" if token == "s4_refinement" else title) for token, title in models if token != "s4_refinement" or between]
+
+
+def _same_nodes(study: Study, token: str) -> bool:
+    names = [f"{t}/model/nodes.csv" for t in (token, "s6_updating")]
+    return all((study.results / name).is_file() for name in names) and study.step_csv(names[0]).equals(study.step_csv(names[1]))
 
 
 def _conditions(study: Study) -> list:

@@ -166,7 +166,7 @@ def table(told: Telling | None) -> dict | None:
     modes = sorted(sorted(weights, key=lambda m: -weights[m])[:MOST_ROWS], key=_order)
     rows = [{"mode": m, "cells": [_cells(at.get((m, state)), shown, error) for _, state, shown, error in groups]} for m in modes]
     return {"groups": [g[0] for g in groups], "errors": [g[3] is not None for g in groups], "model": told.after or told.before, "several": len(states) > 1,
-            "rows": rows, "left_out_modes": len(weights) - len(modes), "left_out_states": max(0, len(states) - MOST_STATES)}
+            "rows": rows, "shapes": any(cell[2] for row in rows for cell in row["cells"]), "left_out_modes": len(weights) - len(modes), "left_out_states": max(0, len(states) - MOST_STATES)}
 
 
 def _cells(row: Told | None, shown: str, side: str | None) -> tuple:

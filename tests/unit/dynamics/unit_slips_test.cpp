@@ -83,6 +83,30 @@ TEST(UnitSlips, DensityThatIsAWeight) {
   }
 }
 
+TEST(UnitSlips, WeightsInADeckOfOtherUnits) {
+  fe::Model model = beam();
+  struct Case {
+    double modulus, density;
+    const char* said;
+  };
+  for (const Case& c : {Case{30e6, 0.283, "lbf/in3, among numbers in lbf and in? Divide it by 386.09"},
+                        {3.8e6, 0.0868, "lbf/in3"},
+                        {2.1e6, 7.85e-3, "kgf/cm3"},
+                        {3.06e6, 2.5, "tonf/m3"},
+                        {2.1e8, 77.0, "kN/m3"},
+                        {3e7, 25.0, "kN/m3"},
+                        {2.1e5, 7.7e-5, "N/mm3"}}) {
+    model.materials[0] = {"m", c.modulus, c.modulus / 2.6, 0.3, c.density};
+    expect_slip(model, c.said);
+  }
+  // Foams, and steel and concrete in kN, m and t.
+  for (const auto& [modulus, density] :
+       {std::pair(9e7, 80.0), std::pair(2e7, 35.0), std::pair(2.1e8, 7.85), std::pair(3e7, 2.5)}) {
+    model.materials[0] = {"m", modulus, modulus / 2.6, 0.3, density};
+    EXPECT_TRUE(unit_slips(model).empty()) << modulus << " " << density;
+  }
+}
+
 TEST(UnitSlips, MassesThatAreWeights) {
   fe::Model model = beam();  // 628 kg/m of steel
   for (int i = 0; i <= 10; ++i) model.masses.push_back({"deck", i, 2000.0, Eigen::Vector3d::Zero()});

@@ -72,6 +72,20 @@ TEST(LowestEigenpairs, MeetTheChainInClosedForm) {
   }
 }
 
+// Oracle: closed form. A chain whose last mass is 1e9 times the others: that mass moves alone on the springs beside it, and the
+// others are a chain of their own. Eigenvalues span ten decades, in the dense branch (n = 12).
+TEST(LowestEigenpairs, SpanTenDecadesWhereMembersAreAllButMassless) {
+  const int n = 12;
+  const double k = 3e4, heavy = 2.5, light = 2.5e-9;
+  Eigen::VectorXd masses = Eigen::VectorXd::Constant(n, light);
+  masses[n - 1] = heavy;
+  Cholesky factor;
+  const EigenPairs pairs = lowest_eigenpairs(chains(n, 1, k), diagonal(masses), n, 0.0, factor);
+  ASSERT_TRUE(pairs.status.converged) << pairs.status.message;
+  EXPECT_NEAR(pairs.values[0] / ((k + k / n) / heavy), 1.0, 1e-6);
+  for (int j = 1; j < n; ++j) EXPECT_NEAR(pairs.values[j] / chain_eigenvalue(j, n - 1, k, light), 1.0, 1e-5) << "mode " << j;
+}
+
 // Oracle: closed form. Three chains of 200: every eigenvalue three times, none may be passed over.
 TEST(LowestEigenpairs, FindEveryCopyOfRepeatedEigenvalues) {
   const int n = 200;

@@ -145,6 +145,14 @@ TEST(AnsysArchive, PlateOfShells) {
     expect_near_part(f[i], pi / 2.0 * ((i + 1) * (i + 1) / 2.25 + 1.0) * std::sqrt(stiffness / mass), within_shells);
 }
 
+// Archives write the factors of hourglass and drilling stiffness of a shell section at their default, 1.
+TEST(AnsysArchive, FactorsOfAShellSectionAtTheirDefault) {
+  const std::string control = "SECTYPE,1,SHELL\nSECBLOCK,1\n0.02,1,0.0,3\nSECCONTROL,0.0,0.0,0.0,0.0,1.0,1.0,{}\n";
+  EXPECT_EQ(ansys_model(plate(2, 2) + fmt::format(fmt::runtime(control), "1.0")).model.sections.at(0).thickness_m, 0.02);
+  EXPECT_NE(message_of([&] { (void)ansys_model(plate(2, 2) + fmt::format(fmt::runtime(control), "10.0")); }).find("field 7"),
+            std::string::npos);
+}
+
 TEST(AnsysArchive, OtherBlocksAndSelections) {
   // Two masses on two springs, in blocks without the word SOLID: element, type, real, material, axes, nodes.
   const std::string deck =

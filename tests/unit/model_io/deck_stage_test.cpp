@@ -114,6 +114,37 @@ TEST(DeckStage, LoadsThatNoStepAsksForAreLeftOutWithANote) {
   expect_bar("Abaqus, CalculiX", "neither_nlgeom_nor_perturbation", inp_bar("1, 1\n", deck), 0.0);
 }
 
+TEST(DeckStage, TheStateIsThatOfTheSupportsOfTheModes) {
+  const std::string loaded = fmt::format("*STEP, NLGEOM\n*STATIC\n*CLOAD\n11, 1, {:.8E}\n*END STEP\n", -half_euler);
+  const auto held = [&](const std::string& boundary) {
+    return message_of([&] { (void)inp_bar("1, 1\n", loaded + "*STEP\n*FREQUENCY\n4\n" + boundary + "*END STEP\n"); });
+  };
+  EXPECT_EQ(held("*BOUNDARY, OP=NEW\n1, 1, 4\n11, 2\n11, 3\n"), held(""));  // the same directions
+  EXPECT_NE(held("*BOUNDARY\n11, 1\n").find("otherwise than the static step"), std::string::npos);
+  EXPECT_NE(held("*BOUNDARY, OP=NEW\n1, 1, 6\n").find("otherwise than the static step"), std::string::npos);
+}
+
+/// A mass of 5 t on a clamped column of ten beams that are all but massless, under its weight P, by one GRAV for each set.
+/// f = sqrt(k / m) / (2 pi) with k = P / (tan(a L) / a - L), a² = P / (E I).
+TEST(DeckStage, GravityOfASetOfPointMasses) {
+  const double mass = 5000.0, weight = 2e5, a = std::sqrt(weight / (E * weak)), k = weight / (std::tan(a * L) / a - L);
+  std::string deck = "*NODE\n";
+  for (int i = 0; i <= 10; ++i) deck += fmt::format("{}, 0., 0., {}.\n", i + 1, i);
+  deck += "*ELEMENT, TYPE=PIPE31, ELSET=COLUMN\n";
+  for (int i = 1; i <= 10; ++i) deck += fmt::format("{}, {}, {}\n", i, i, i + 1);
+  deck += fmt::format(
+      "*ELEMENT, TYPE=MASS, ELSET=HEAD\n99, 11\n*MASS, ELSET=HEAD\n{}\n*BEAM SECTION, ELSET=COLUMN, MATERIAL=STEEL, "
+      "SECTION=RECT\n0.2, 0.4\n1., 0., 0.\n*MATERIAL, NAME=STEEL\n*ELASTIC\n2.1E11, 0.3\n*DENSITY\n1.\n*BOUNDARY\n"
+      "1, ENCASTRE\n*STEP, NLGEOM\n*STATIC\n*DLOAD\nHEAD, GRAV, {}, 0., 0., -1.\nCOLUMN, GRAV, {}, 0., 0., -1.\n*END "
+      "STEP\n",
+      mass, weight / mass, weight / mass);
+  const TestFolder folder;
+  folder.write("column.inp", deck + plain_modes);
+  expect_known_frequencies({"Abaqus, CalculiX", "column_under_its_mass", "closed form", closed},
+                           frequencies(read_inp(folder.path() / "column.inp").model, 1),
+                           {std::sqrt(k / mass) / (2.0 * std::numbers::pi)});
+}
+
 TEST(DeckStage, InpRefusesByNameWhatItDoesNotCarry) {
   const auto answer = [](const std::string& loads, const std::string& before = "", const std::string& opening = "*STEP\n") {
     return message_of([&] { (void)inp_bar("1, 1\n", opening + "*STATIC\n" + loads + "*END STEP\n" + modes, before); });
@@ -151,6 +182,11 @@ TEST(DeckStage, NastranForcesMovementsTemperatures) {
   expect_bar("Nastran", "spc_moved",
              nastran_bar("SUBCASE 1\n LOAD = 5\nSUBCASE 2\n STATSUB = 1\n METHOD = 1\n",
                          fmt::format("SPCD,5,11,1,{:.6E}\nFORCE,5,5,,0.,1.,0.,0.\n", -half_euler * L / (E * A)) + held));
+  expect_bar("Nastran", "movement_and_force_by_load",
+             nastran_bar("SUBCASE 1\n LOAD = 5\nSUBCASE 2\n STATSUB = 1\n METHOD = 1\n",
+                         fmt::format("LOAD,5,1.,2.,7,1.,8\nSPCD,7,11,1,{:.6E}\nFORCE,8,5,,0.,1.,0.,0.\n",
+                                     -0.5 * half_euler * L / (E * A)) +
+                             held));
   expect_bar("Nastran", "warmed",
              nastran_bar("SUBCASE 1\n TEMP(LOAD) = 6\nSUBCASE 2\n STATSUB(PRELOAD) = 1\n METHOD = 1\n",
                          fmt::format("TEMPD,6,{:.6E}\n", 20.0 + half_euler / (E * A * 1.2e-5)) + held));
@@ -161,6 +197,8 @@ TEST(DeckStage, NastranRefusesByName) {
   EXPECT_EQ(answer("FORCE,5,11,,1.,-1.,0.,0.\n"), "");
   EXPECT_NE(answer("RFORCE,5,,,1.,0.,0.,1.\n").find("RFORCE"), std::string::npos);
   EXPECT_NE(answer("FORCE,6,11,,1.,-1.,0.,0.\n").find("chooses the loads 5"), std::string::npos);
+  const std::string nonlinear = "SUBCASE 1\n STEP 1\n ANALYSIS = NLSTATIC\n LOAD = 5\n";
+  EXPECT_NE(message_of([&] { (void)nastran_bar(nonlinear, hinged); }).find("ANALYSIS: starts the modes"), std::string::npos);
   EXPECT_NE(message_of([] { (void)nastran_bar("SUBCASE 2\n STATSUB = 9\n METHOD = 1\n", hinged); }).find("subcase 9"),
             std::string::npos);
 }

@@ -230,5 +230,27 @@ TEST(InpTies, RefusalsNameTheirLine) {
   expect(message(two_arms("", "*MPC\nPIN, LEFT.1, RIGHT.3\n")), "MPC PIN joins two nodes that do not lie at one place");
 }
 
+// The plate's mesh in a file of its own, its section on the card of general sections, with directions that isotropy makes idle.
+TEST(InpIncludes, AreReadInTheirPlace) {
+  const TestFolder folder;
+  std::filesystem::create_directories(folder.path() / "mesh");
+  folder.write("mesh/plate.inc",
+               "*NODE\n1, 0., 0., 0.\n2, 1., 0., 0.\n3, 1., 1., 0.\n4, 0., 1., 0.\n*INCLUDE, INPUT=shells.inc\n");
+  folder.write("mesh/shells.inc", "*ELEMENT, TYPE=S4R, ELSET=PLATE\n1, 1, 2, 3, 4\n");
+  const std::string rest =
+      "*ORIENTATION, NAME=ALONG\n1., 0., 0., 0., 1., 0.\n3, 0.\n*SHELL GENERAL SECTION, ELSET=PLATE, MATERIAL=M, "
+      "ORIENTATION=ALONG, OFFSET=0.\n0.01\n*MATERIAL, NAME=M\n*ELASTIC\n2.E11, 0.3\n*DENSITY\n8000.\n*BOUNDARY\n1, 1, 6\n";
+  folder.write("deck.inp", "*INCLUDE, INPUT=mesh/plate.inc\n" + rest);
+  const ImportedModel imported = read_inp(folder.path() / "deck.inp");
+  EXPECT_EQ(imported.files.size(), 3u);
+  EXPECT_EQ(imported.model.elements.size(), 1u);
+  EXPECT_EQ(imported.model.sections.at(0).thickness_m, 0.01);
+  folder.write("mesh/shells.inc", "*INCLUDE, INPUT=plate.inc\n");
+  EXPECT_NE(message_of([&] {
+              (void)read_inp(folder.path() / "deck.inp");
+            }).find("shells.inc:1: *INCLUDE: the file 'plate.inc' includes itself"),
+            std::string::npos);
+}
+
 }  // namespace
 }  // namespace twindeck::model_io::test

@@ -151,6 +151,28 @@ TEST(Sap2000, APlateOnItsEdges) {
                shells);
 }
 
+// Cracked frames: a quarter of the bending stiffness is half of the frequency. An assignment of the centroid changes nothing.
+TEST(Sap2000, ModifiersOfFrames) {
+  std::string assigned = "TABLE:  \"FRAME PROPERTY MODIFIERS\"\n";
+  for (int i = 1; i <= 40; ++i)
+    assigned += fmt::format(
+        "   Frame={}   AMod=1   AS2Mod=1   AS3Mod=1   JMod=1   I22Mod=0.25   I33Mod=0.25   MassMod=1   WeightMod=1\n", i);
+  const std::string cantilever =
+      metres + steel + section + line_of_frames(40, 0.1, 0.0) + restraints + restraint(1, "111111") + "\n";
+  const std::string neutral =
+      "TABLE:  \"FRAME INSERTION POINT ASSIGNMENTS\"\n   Frame=1   CardinalPt=\"10 (centroid)\"   StiffTransform=Yes   "
+      "JtOffsetZI=0\n\n";
+  expect_known("cracked", cantilever + neutral + assigned,
+               {0.5 * euler_Hz(1.87510407, i22, 4.0), 0.5 * euler_Hz(1.87510407, i33, 4.0)}, beams);
+  const auto refused = [&](std::string table, const std::string& from, const std::string& to) {
+    table.replace(table.find(from), from.size(), to);
+    return message_of([&] { (void)import_tables(cantilever + table); });
+  };
+  EXPECT_NE(refused(assigned, "MassMod=1", "MassMod=0").find("MassMod is 0"), std::string::npos);
+  EXPECT_NE(refused(neutral, "10 (centroid)", "8 (top center)").find("FRAME INSERTION POINT"), std::string::npos);
+  EXPECT_NE(refused(neutral, "ZI=0", "ZI=-0.2").find("FRAME INSERTION POINT"), std::string::npos);
+}
+
 TEST(Sap2000, RefusesWhatItDoesNotCarryByItsTable) {
   const std::string sound = metres + steel + section + line_of_frames(2, 1.0, 0.0) + restraints + restraint(1, "111111");
   EXPECT_EQ(message_of([&] { (void)import_tables(sound); }), "");
@@ -164,7 +186,7 @@ TEST(Sap2000, RefusesWhatItDoesNotCarryByItsTable) {
                 "CONNECTIVITY - LINK: this table is not carried"},
            {"", "TABLE:  \"JOINT CONSTRAINT ASSIGNMENTS\"\n   Joint=1   Constraint=D\n",
             "JOINT CONSTRAINT ASSIGNMENTS: this table"},
-           {"", "TABLE:  \"FRAME PROPERTY MODIFIERS\"\n   Frame=1   AMod=2\n", "FRAME PROPERTY MODIFIERS: this table"},
+           {"", "TABLE:  \"FRAME PROPERTY MODIFIERS\"\n   Frame=1   AMod=2\n", "AMod is 2"},
            {"", "TABLE:  \"MASS SOURCE\"\n   MassSource=M   Elements=Yes   Masses=Yes   Loads=Yes\n",
             "takes masses from loads"},
            {"", "TABLE:  \"LOAD CASE DEFINITIONS\"\n   Case=MODAL   Type=LinModal   InitialCond=DEAD\n",

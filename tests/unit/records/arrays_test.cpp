@@ -62,6 +62,20 @@ TEST(MatRecord, VectorsWithATime) {
   EXPECT_EQ(record.info.channels[1].name, "a2");
 }
 
+TEST(MatRecord, UnitsOfTimesAndSteps) {
+  const Scratch scratch;
+  for (const char* name : {"time_ms", "timestamp (ms)", "dt", "dt_ms"}) {
+    const std::string file = scratch.file("u.mat").string();
+    mat_t* mat = Mat_CreateVer(file.c_str(), nullptr, MAT_FT_MAT5);
+    add(mat, "acc", samples().array().sin().matrix(), MAT_COMPRESSION_NONE);
+    const bool step = name[0] == 'd';
+    add(mat, name, step ? Eigen::MatrixXd::Constant(1, 1, 20.0) : Eigen::MatrixXd(Eigen::VectorXd::LinSpaced(400, 0.0, 7980.0)),
+        MAT_COMPRESSION_NONE);
+    Mat_Close(mat);
+    EXPECT_NEAR(read(file).info.rate_Hz, 50.0, 1e-9) << name;
+  }
+}
+
 TEST(Hdf5Record, DatasetInAGroupWithARateAttribute) {
   const Scratch scratch;
   const std::string file = scratch.file("a.h5").string();

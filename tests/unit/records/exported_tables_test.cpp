@@ -82,6 +82,45 @@ TEST(ExportedTable, SeparatorsQuotesAndDecimalCommas) {
   }
 }
 
+TEST(ExportedTable, ThousandsInGroups) {
+  const Scratch scratch;
+  for (const auto& [signs, comma] : {std::pair<std::string, bool>{",", false}, {".", true}, {"'", false}, {"\xC2\xA0", true}}) {
+    std::string text = "Time;P1\n";
+    for (int t = 0; t < 300; ++t) {
+      const double x = wave(t, 0) * 9000.0;
+      std::string number = cell(std::abs(x), comma);
+      if (std::abs(x) >= 1000.0) number.insert(1, signs);
+      text += fmt::format("{};{}{}\n", cell(0.01 * t, comma), x < 0.0 ? "-" : "", number);
+    }
+    const Record record = read(scratch.write("a.csv", text));
+    ASSERT_EQ(record.samples.rows(), 300) << signs;
+    for (int t = 0; t < 300; ++t) ASSERT_NEAR(record.samples(t, 0), 9000.0 * wave(t, 0), 1e-4) << signs << t;
+  }
+  std::string whole = "Time;P1\n";
+  for (int t = 0; t < 300; ++t) whole += fmt::format("{:.2f};{}\n", 0.01 * t, t % 3 == 0 ? "1,204" : "998");
+  EXPECT_NE(refusal(scratch.write("b.csv", whole)).find("it parts thousands"), std::string::npos);
+}
+
+TEST(ExportedTable, WordsForWhatIsMissingAndTextThatIsNone) {
+  const Scratch scratch;
+  const auto table = [](const std::string& word) {
+    std::string text = "Time,P1,P2\n0.00," + word + "," + word + "\n";
+    for (int t = 1; t < 300; ++t) text += fmt::format("{:.2f},{},{}\n", 0.01 * t, t == 50 ? word : cell(wave(t, 0)), "0.5");
+    return text;
+  };
+  for (const char* word : {"overflow", "Error", "#WERT!", "#N/A", "saturated", "n.v.", "-Infinity"}) {
+    const Record record = read(scratch.write("a.csv", table(word)));
+    ASSERT_EQ(record.samples.rows(), 300) << word;
+    EXPECT_TRUE(std::isnan(record.samples(50, 0)) && std::isnan(record.samples(0, 0))) << word;
+    EXPECT_EQ(record.info.channels[0].name, "P1") << word;
+  }
+  std::string text = table("NaN");
+  text.replace(text.rfind("NaN"), 3, "train");
+  EXPECT_NE(refusal(scratch.write("b.csv", text)).find("empty the cell"), std::string::npos);
+  EXPECT_NE(refusal(scratch.write("c.csv", "P1,P2\nA7,1\nA7,2\nA7,3\n")).find("line 3 has 'A7' in column 1"),
+            std::string::npos);
+}
+
 TEST(ExportedTable, Utf16WithAndWithoutItsMark) {
   const Scratch scratch;
   std::u16string text = u"time_s,Br\u00FCcke\n";

@@ -6,6 +6,7 @@
 #include "records/header_rate.hpp"
 #include "records/inspect.hpp"
 #include "records/text_cells.hpp"
+#include "records/time_stamp.hpp"
 #include "refusal.hpp"
 #include "scratch.hpp"
 

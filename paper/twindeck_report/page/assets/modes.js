@@ -101,12 +101,12 @@ class ModeShapes {
     this.describe();
   }
 
-  /// The model that the chosen one came from, on the same nodes: the last of the list.
+  /// The model that the chosen one came from, on the same nodes: the next such one of the list.
   earlier() {
-    const other = this.data.sets[this.data.sets.length - 1];
-    if (this.set.kind !== 'model' || other === this.set || other.kind !== 'model') return null;
-    const here = this.meshes[this.set.mesh].points, there = this.meshes[other.mesh].points;
-    return here.length === there.length && here.every((x, i) => x === there[i]) ? other : null;
+    if (this.set.kind !== 'model') return null;
+    const here = this.meshes[this.set.mesh].points;
+    const same = there => here.length === there.length && here.every((x, i) => x === there[i]);
+    return this.data.sets.slice(this.data.sets.indexOf(this.set) + 1).find(s => s.kind === 'model' && same(this.meshes[s.mesh].points)) || null;
   }
 
   /// The mode of the earlier model that is closest in shape, with the length of the difference at each node as a share of the largest displacement.

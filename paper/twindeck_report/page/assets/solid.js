@@ -66,7 +66,6 @@ class SolidCanvas {
     this.renderer.setPixelRatio(ratio);
     this.renderer.setSize(width, height, false);
     this.camera.aspect = width / height;
-    if (this.dotMaterial) this.dotMaterial.size = this.scene.dot * ratio;
   }
 
   draw(orbit, moved, colours, spots, spotColours) {
