@@ -112,7 +112,7 @@ def _by_condition(study: Study):
 def _html(table, title: str) -> str:
     head = "".join(f"<th>{html.escape(heading(c))}</th>" for c in table.columns)
     rows = "\n".join("<tr>" + "".join(_cell(v) for v in row) + "</tr>" for row in table.itertuples(index=False))
-    return f'<table class="paper-table"><caption><span>{html.escape(title)}</span></caption>\n<thead><tr>{head}</tr></thead>\n<tbody>\n{rows}\n</tbody></table>\n'
+    return f'<table class="paper-table"><caption>{html.escape(title)}</caption>\n<thead><tr>{head}</tr></thead>\n<tbody>\n{rows}\n</tbody></table>\n'
 
 
 def _cell(value) -> str:

@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "identification/mode_choices.hpp"
+#include "identification/sampling.hpp"
 
 namespace twindeck::identification {
 
@@ -107,6 +108,14 @@ Index length_of(const std::vector<Eigen::MatrixXd>& decays, double rate_Hz, Iden
   return length;
 }
 
+/// Where the band ends that the configuration leaves open: above the reach of the motion poles are those of noise that the
+/// filter has coloured.
+double band_end(const Conditioned& decay) {
+  constexpr double kBeyond = 1.1;  // of the reach: the flank of a mode there
+  const double widest = kFilteredBand * 0.5 * decay.rate_Hz;
+  return decay.reach_Hz > 0.0 ? std::min(kBeyond * decay.reach_Hz, widest) : widest;
+}
+
 }  // namespace
 
 std::optional<AmbientPartner> partner_of(const Cluster& mode, const std::vector<records::CampaignChannel>& channels,
@@ -167,6 +176,7 @@ std::vector<DecayResult> identify_free_decays(const std::vector<Conditioned>& re
     IdentificationSettings own = config;
     own.block_rows = conditioned.block_rows > 0 ? conditioned.block_rows : config.decay_block_rows;
     own.maximum_order = config.decay_maximum_order;
+    if (own.highest_Hz == 0.0) own.highest_Hz = band_end(conditioned);
     const auto skipped = static_cast<Index>(std::lround(config.decay_start_s * conditioned.rate_Hz));
     std::vector<Eigen::MatrixXd> whole, pieces, quiet;
     for (const Samples& record : conditioned.records) {

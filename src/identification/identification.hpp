@@ -22,6 +22,7 @@ struct ConditionedInfo {
   std::vector<records::CampaignChannel> inputs;    ///< input columns
   std::vector<Eigen::Index> references;            ///< positions among channels
   double rate_Hz = 0.0;                            ///< after decimation
+  double reach_Hz = 0.0;                           ///< of free decays: how far their motion reaches; 0: not known
   bool filtered = false;                           ///< decimation took out what lies above 0.8 of the Nyquist frequency
   long block_rows = 0;  ///< that the records are identified with: as configured, or chosen (sampling.hpp)
   std::string setup, condition;

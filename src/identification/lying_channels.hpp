@@ -22,7 +22,7 @@ struct JudgedChannels {
 
 /// Channels that cannot be what they say, each with its reason in ChannelQuality::left_out:
 ///   dead   constant, or without motion: its RMS is below kUnresolved of the channels' median
-///   stuck  one value for over 5 % of the record in a row (where all may rest: while most others move)
+///   stuck  one value for over 5 % of the record, or 1 % and far above other runs (where all may rest: while most others move)
 ///   copy   sample by sample the recorded values of another channel, which two sensors never give; a reference is the original
 /// @param raw  (n_samples × channels of the record), gains applied
 void judge_channels(const Samples& raw, const JudgedChannels& judged, std::vector<ChannelQuality>& quality);

@@ -74,10 +74,14 @@ long fill_gaps(Eigen::MatrixXd& data, const std::vector<std::string>& channels, 
       while (end < data.rows() && !std::isfinite(data(end, c))) ++end;
       const long gap = end - t;
       if (gap > longest || t == 0 || end == data.rows()) {
+        long most = 0;
+        for (Index k = 0; k < data.cols(); ++k) most = std::max(most, quality_of(data.col(k)).longest_gap);
         throw UnusableRecord(
             {record, 0, channels[static_cast<std::size_t>(c)]},
             fmt::format("has a gap of {} samples from sample {} on, expected none over {} and none at an end", gap, t, longest),
-            "cut the record, leave the channel out (--set exclude=…), or allow it (--set longest_gap=…)");
+            fmt::format("cut the record, leave the channel out (--set 'exclude=[\"{}\"]'){}",
+                        channels[static_cast<std::size_t>(c)],
+                        t == 0 || end == data.rows() ? "" : fmt::format(", or bridge gaps (--set longest_gap={})", most)));
       }
       const double before = data(t - 1, c), step = (data(end, c) - before) / static_cast<double>(gap + 1);
       for (Index k = t; k < end; ++k) data(k, c) = before + step * static_cast<double>(k - t + 1);

@@ -163,7 +163,10 @@ void settle_sampling(Conditioned& conditioned, const IdentificationSettings& con
   const Sampling chosen = is_decay ? choose_decay_sampling(conditioned.records, conditioned.rate_Hz, config)
                                    : choose_sampling(conditioned.records, conditioned.rate_Hz, config);
   conditioned.block_rows = chosen.block_rows;
-  conditioned.notes.push_back(fmt::format("setup {}: {}", conditioned.setup, chosen.note));
+  if (is_decay) conditioned.reach_Hz = chosen.highest_Hz;
+  const bool limited = conditioned.reach_Hz > 0.0 && config.highest_Hz == 0.0;
+  conditioned.notes.push_back(fmt::format("setup {}: {}{}", conditioned.setup, chosen.note,
+                                          limited ? "; modes are looked for there (band.highest sets another limit)" : ""));
   if (config.decimation > 0 || chosen.decimation == 1) return;
   for (std::vector<Samples>* all : {&conditioned.records, &conditioned.excitation}) {
     for (Samples& record : *all) record = signal::detrended(signal::decimated(record, chosen.decimation));

@@ -89,7 +89,8 @@ Header parse(const std::string& text, const fs::path& file) {
   const std::string_view description = value_of_key(text, "descr");
   const std::size_t quote = description.find('\'', 1);
   if (!description.starts_with('\'') || quote == std::string_view::npos)
-    refuse(file, "has a header without 'descr'", "give a plain array");
+    refuse(file, "has a header without 'descr' of one type of number: its rows may be records of several fields",
+           "give a plain array: numpy.column_stack([data[name] for name in data.dtype.names])");
   const std::string type(description.substr(1, quote - 1));
   if (type != "<f8" && type != "<f4" && type != "<i2" && type != "<i4") {
     refuse(file, fmt::format("holds type '{}', expected '<f8', '<f4', '<i2' or '<i4'", type),

@@ -1,6 +1,7 @@
 #include "records/record.hpp"
 
 #include <algorithm>
+#include <array>
 #include <fstream>
 #include <limits>
 #include <string_view>
@@ -9,6 +10,7 @@
 #include "core/error.hpp"
 #include "io/npy.hpp"
 #include "io/regular_file.hpp"
+#include "io/spreadsheet.hpp"
 #include "records/first_column.hpp"
 #include "records/mat_file.hpp"
 #include "records/scan_hdf5.hpp"
@@ -56,6 +58,34 @@ bool is_universal(const std::string& text) {
   return false;
 }
 
+/// Files of other programs, by their first bytes: what they are, and how to make a record of them.
+void refuse_containers(const fs::path& file, std::string_view text) {
+  struct Container {
+    std::string_view begin;
+    const char *what, *mend;
+  };
+  static constexpr const char *as_csv = "export it as CSV or MAT file", *unpack = "unpack it";
+  static constexpr std::array<Container, 13> known = {
+      {{"PK\3\4", "an archive (zip, NPZ)",
+        "unpack it; of an NPZ, save the samples as one array (samples x channels) by numpy.save"},
+       {"PAR1", "a Parquet file", "write it as a table: pandas.read_parquet(name).to_csv('record.csv', index=False)"},
+       {"ARROW1", "a Feather file", "write it as a table: pandas.read_feather(name).to_csv('record.csv', index=False)"},
+       {"\x80\3", "a pickle of Python", "save the array by numpy.save, or the table by to_csv"},
+       {"\x80\4", "a pickle of Python", "save the array by numpy.save, or the table by to_csv"},
+       {"\x80\5", "a pickle of Python", "save the array by numpy.save, or the table by to_csv"},
+       {"\x1F\x8B", "compressed by gzip", unpack},
+       {"7z\xBC\xAF", "compressed by 7-Zip", unpack},
+       {"\xD0\xCF\x11\xE0", "a workbook of old Excel (.xls)", "save it as .xlsx or CSV"},
+       {"TDSm", "a TDMS file of LabVIEW", as_csv},
+       {"MDF ", "an MDF file", as_csv},
+       {"RIFF", "a WAV file", as_csv},
+       {"SQLite format 3", "a database", as_csv}}};
+  for (const Container& one : known) {
+    if (text.starts_with(one.begin) && !io::is_spreadsheet(file))
+      throw InputError({file.string(), 0, ""}, std::string("is ") + one.what, one.mend);
+  }
+}
+
 }  // namespace
 
 RecordInfo scan_npy(const fs::path& file, const Visitor& visit) {
@@ -88,6 +118,7 @@ RecordInfo scan(const fs::path& file, const Visitor& visit, const ReadOptions& o
   if (is_hdf5(text)) return scan_hdf5(file, visit);
   if (is_mat_4(text) || is_mat_5(text)) return scan_mat(file, visit);
   if (is_universal(text)) return scan_universal(file, visit);
+  refuse_containers(file, text);
   return scan_text(file, visit, options);
 }
 

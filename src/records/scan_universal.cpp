@@ -43,7 +43,7 @@ void expect_end(UniversalLines& in, RecordInfo& info, const std::string& set) {
   while (in.next(line)) {
     if (is_delimiter(line)) return;
     if (is_blank(line)) continue;
-    in.fail(fmt::format("holds '{}' after the values of set {}, expected -1", field(line, 0, 40), set),
+    in.fail(fmt::format("does not end after the values of set {}, expected -1", set),
             "write the set again with the number of its values");
   }
   if (!whole) in.fail(fmt::format("breaks off in the last value of set {}", set), kCopyAgain);
@@ -193,9 +193,13 @@ void read_text_values(UniversalLines& in, Series& series, const std::string& wha
 
 void read_binary_values(UniversalLines& in, Series& series, const std::string& what, Parts& parts, RecordInfo& info) {
   const std::size_t size = series.is_double() ? 8 : 4;
-  // An uneven abscissa is single in set 58, whatever the ordinate is.
-  const std::size_t abscissa = series.even ? 0 : 4, ordinate = size * (series.is_complex() ? 2 : 1);
-  const std::size_t sample = abscissa + ordinate, expected = sample * static_cast<std::size_t>(series.values);
+  // An uneven abscissa is single in set 58, whatever the ordinate is; some writers give it eight bytes and say so.
+  const std::size_t ordinate = size * (series.is_complex() ? 2 : 1);
+  const bool wide = !series.even && series.bytes == (8 + ordinate) * static_cast<std::size_t>(series.values);
+  const std::size_t abscissa = series.even ? 0
+                               : wide      ? 8
+                                           : 4,
+                    sample = abscissa + ordinate, expected = sample * static_cast<std::size_t>(series.values);
   if (series.bytes != 0 && series.bytes != expected)
     info.notes.push_back(fmt::format("{} says {} bytes, {} values take {}", what, series.bytes, series.values, expected));
   // A newline too many before the data: then the set's end stands one byte later than it should.
@@ -216,7 +220,7 @@ void read_binary_values(UniversalLines& in, Series& series, const std::string& w
     const auto complete = static_cast<Index>(data.size() / sample);
     for (Index k = 0; k < complete; ++k) {
       const char* at = data.data() + static_cast<std::size_t>(k) * sample;
-      if (!series.even) series.stamps.add(binary_value(at, false, series.swapped));
+      if (!series.even) series.stamps.add(binary_value(at, wide, series.swapped));
       parts.add(binary_value(at + abscissa, series.is_double(), series.swapped));
     }
     done += complete;

@@ -236,7 +236,7 @@ class Headline(unittest.TestCase):
 
 class Numbers(unittest.TestCase):
     def test_units_take_prefixes_and_numbers_no_exponents(self):
-        for value, unit, text in ((2.1e11, "Pa", "210 GPa"), (8.24e6, "N/m", "8.24 MN/m"), (434.0, "N", "434 N"), (0.612, "-", "0.612"), (1500.0, "kg/m3", "1,500 kg/m3"),
+        for value, unit, text in ((2.1e11, "Pa", "210 GPa"), (8.24e6, "N/m", "8.24 MN/m"), (434.0, "N", "434 N"), (0.612, "-", "0.612"), (0.7, "m/s^2", "0.7 m/s²"), (1500.0, "kg/m3", "1,500 kg/m³"),
                                   (18549.0, "kg", "18,500 kg"), (0.0, "Pa", "0 Pa"), (-2e3, "N", "-2 kN"), (0.00012, "1/K", "0.00012 1/K"), (800.0, "kg", "800 kg")):
             self.assertEqual(physical(value, unit), text)
         self.assertEqual(span({"value": 1.0, "low": 0.9, "high": 1.1}, ""), "1 (0.9 to 1.1)")

@@ -182,12 +182,14 @@ class Lies(Records):
     def test_such_a_channel_is_left_out_with_its_reason(self):
         stuck, copy, dead = self.data.copy(), self.data.copy(), self.data.copy()
         stuck[4000:4700, 2] = stuck[4000, 2]  # 5.8 %
+        held = self.data.copy()
+        held[4000:4200, 2] = held[4000, 2]  # 1.7 %, and no other run of one value
         copy[:, 2] = copy[:, 0]
         dead[:, 2] = 1e-13 * np.random.default_rng(2).standard_normal(SAMPLES)
         np.save(self.campaign("without") / "records/ST1/record.npy", self.data)
         expected = identify(self.folder / "without", self.folder / "without_out", *SETTINGS, 'exclude=["c03"]')
         self.assertEqual(expected.returncode, 0, expected.stderr)
-        for name, data, reason in (("stuck", stuck, "is stuck: it holds"), ("copy", copy, "is a copy of c01"), ("dead", dead, "does not move: its RMS is")):
+        for name, data, reason in (("stuck", stuck, "is stuck: it holds"), ("held", held, "is stuck: it holds"), ("copy", copy, "is a copy of c01"), ("dead", dead, "does not move: its RMS is")):
             with self.subTest(name):
                 np.save(self.campaign(name) / "records/ST1/record.npy", data)
                 done = self.run_step(name)

@@ -10,7 +10,7 @@ from .wind import SYNTHETIC
 NAME = "damping_identified"
 CAPTION = ("Left: total damping of mode 1 with the assumed 0.5 % and with the 1.10 % that was identified (Table 4, without dampers), with both "
            "aerodynamic sets: how far the instability moves depends on how h1* grows with the wind. Right: with the dampers, every followed "
-           "mode of the stand-in set; the paper states damping well above 2 % for each mode up to 40.4 m/s. Positions of the dampers are "
+           "mode of the stand-in set, green where it stays above 2 % and red where it does not; the paper states damping well above 2 % for each mode up to 40.4 m/s. Positions of the dampers are "
            "reconstructed. " + SYNTHETIC)
 NEEDS = ("s7_aerodynamics",)
 SETS = (("standin", "stand-in", (0, ())), ("quasi_steady", "quasi-steady", (0, (5, 3))))
@@ -18,7 +18,7 @@ SETS = (("standin", "stand-in", (0, ())), ("quasi_steady", "quasi-steady", (0, (
 
 def draw(study: Study):
     figure, (left, right) = plt.subplots(1, 2, figsize=(10.4, 4.2))
-    figure.subplots_adjust(0.07, 0.12, 0.98, 0.95, wspace=0.16)
+    figure.subplots_adjust(0.07, 0.12, 0.98, 0.93, wspace=0.16)
     kept = []
     for name, label, style in SETS:
         table = damping(study, name, "off")
@@ -42,6 +42,7 @@ def draw(study: Study):
     right.set_title("every followed mode with dampers", loc="left")
     for axes in (left, right):
         axes.axvline(design_speed(study), color=PALE, linewidth=0.9, linestyle=(0, (4, 3)))
+        axes.annotate("design wind", (design_speed(study), 1.0), xycoords=("data", "axes fraction"), xytext=(3, -9), textcoords="offset points", fontsize=8, color="#5b6673")
         axes.set_xlabel("wind velocity V (m/s)")
     left.set_ylabel("total damping ξ (%)")
     return figure, pd.concat(kept, ignore_index=True)

@@ -23,8 +23,8 @@ DIRECTIONS = ["dx", "dy", "dz"]
 def draw(study: Study):
     mesh = read_mesh(study, "s1_model/model")
     channels = study.step_csv(f"{STEP}/features/channels.csv", ["channel", "point", *PLACES, *DIRECTIONS]).set_index("channel")
-    figure, both = plt.subplots(1, 2, figsize=(10.4, 3.4))
-    figure.subplots_adjust(0.01, 0.01, 0.99, 0.84, wspace=0.02)
+    figure, both = plt.subplots(1, 2, figsize=(10.4, 2.5))
+    figure.subplots_adjust(0.01, 0.01, 0.99, 0.9, wspace=0.02)
     chosen, kept = [], []
     for axes, condition, rows, words in zip(both, (WITHOUT, WITH), (without_dampers(study), with_dampers(study)), ("without dampers", "with dampers")):
         axes.add_collection(LineCollection(view(mesh.points)[mesh.part(*DECKS)], colors=PALE, linewidths=0.35))
@@ -49,7 +49,7 @@ def draw(study: Study):
         kept.append(motion.assign(condition=condition))
         axes.set_title(f"mode 1 {words}: {modes_of(study, condition).at[rows[1], 'frequency_Hz']:.3f} Hz", loc="left")
     if len(chosen) == 2:
-        figure.suptitle(f"MAC of the two {mac(*chosen):.2f}", fontsize=9)
+        both[1].set_title(f"{both[1].get_title(loc='left')}; MAC with the other {mac(*chosen):.2f}", loc="left")
     return figure, pd.concat(kept, ignore_index=True)
 
 

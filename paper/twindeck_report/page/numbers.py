@@ -1,4 +1,5 @@
 """Numbers with units as people write them: 210 GPa, 8.2 MN/m, 0.612."""
+import re
 
 PREFIXES = ((1e9, "G"), (1e6, "M"), (1e3, "k"))
 TAKES_PREFIX = ("Pa", "N", "N/m", "N m/rad", "N s/m")
@@ -16,7 +17,7 @@ def physical(value, unit: str, digits: int = 3) -> str:
     text = f"{number:.{digits}g}"
     if "e" in text and 1e-4 <= abs(number) < 1e9:
         text = f"{float(text):,.0f}" if abs(number) >= 1 else f"{float(text):f}".rstrip("0")
-    return f"{text} {prefix}{unit}".strip()
+    return f"{text} {prefix}{re.sub('(?<=[ms])([23])', lambda power: '²³'[int(power[1]) - 2], unit.replace('^', ''))}".strip()
 
 
 def span(estimate: dict, unit: str) -> str:

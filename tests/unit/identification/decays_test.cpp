@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <numbers>
@@ -179,6 +180,24 @@ TEST(IdentifyFreeDecays, ADecayHasItsFrequencyAndDamping) {
     EXPECT_NEAR(point.damping_ratio, 0.01, 1e-4);
     EXPECT_TRUE(point.amplitude < before && point.amplitude <= 1.0);  // falling, below the release's
     before = point.amplitude;
+  }
+}
+
+// Two oscillators: beyond the reach that is told of the motion, none is looked for.
+TEST(IdentifyFreeDecays, TheBandEndsWhereTheMotionDoes) {
+  Conditioned decay = released(1.0, 0.01, 5.0);
+  Eigen::MatrixXd both = decay.records.front();
+  both += 0.1 * Eigen::MatrixXd(released(5.0, 0.01, 5.0).records.front());
+  decay.records = {Samples(both)};
+  IdentificationSettings config;
+  config.largest_deviation = 0.0;
+  for (const double reach : {0.0, 1.2}) {
+    decay.reach_Hz = reach;
+    const auto modes = identify_free_decays({decay}, config, {}, 1).front().found.modes;
+    const bool high = std::any_of(modes.begin(), modes.end(), [](const Cluster& m) { return m.frequency_Hz > 1.4; });
+    EXPECT_EQ(high, reach == 0.0) << reach;
+    EXPECT_TRUE(
+        std::any_of(modes.begin(), modes.end(), [](const Cluster& m) { return std::abs(m.frequency_Hz - 1.0) < 1e-3; }));
   }
 }
 

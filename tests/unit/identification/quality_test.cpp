@@ -128,6 +128,8 @@ TEST(FillGaps, ALongerGapOrOneAtAnEndIsRefusedNamingTheChannel) {
       FAIL() << "a gap is bridged";
     } catch (const UnusableRecord& error) {
       EXPECT_NE(std::string(error.what()).find("mast"), std::string::npos) << error.what();
+      const bool inside = std::isfinite(values.front()) && std::isfinite(values.back());
+      EXPECT_EQ(std::string(error.what()).find("longest_gap=3") != std::string::npos, inside) << error.what();
     }
   }
 }

@@ -239,6 +239,21 @@ TEST(Matrix, WhatIsNoneIsNamed) {
   }
 }
 
+TEST(Matrix, FilesOfOtherProgramsAreNamedWithAWayOut) {
+  const Scratch scratch;
+  for (const auto& [bytes, way] : {std::pair<std::string, std::string>{"PK\3\4....data.npy", "numpy.save"},
+                                   {"PAR1....", "read_parquet"},
+                                   {"\x80\4\x95....", "numpy.save"},
+                                   {"\x1F\x8B\x08....", "unpack"},
+                                   {"TDSm....", "CSV"}})
+    EXPECT_NE(refusal(scratch.write("a.bin", bytes)).find(way), std::string::npos) << refusal(scratch.file("a.bin"));
+  std::string fields = "{'descr': [('time', '<f8'), ('P1', '<f8')], 'fortran_order': False, 'shape': (9,), }";
+  fields.resize(117, ' ');
+  EXPECT_NE(refusal(scratch.write("a.npy", "\x93NUMPY\1" + std::string(1, '\0') + "v" + std::string(1, '\0') + fields + "\n"))
+                .find("numpy.column_stack"),
+            std::string::npos);
+}
+
 TEST(Matrix, ATableOfCompoundRowsIsNamedWithItsColumns) {
   const Scratch scratch;
   struct Row {

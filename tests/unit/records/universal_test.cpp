@@ -116,6 +116,32 @@ TEST(Universal58, ATruncatedFileIsNamedWithItsLine) {
   }
 }
 
+/// One channel of set 58b with its own times, of 4 or 8 bytes before each value.
+std::string uneven_58b(bool wide) {
+  const std::string even = universal_58(same_samples().leftCols(1), 128.0, true);
+  std::string text = even.substr(0, even.size() - 8 * 400 - 8);
+  for (int t = 0; t < 400; ++t) {
+    const auto eight = std::bit_cast<std::array<char, 8>>(t / 128.0),
+               value = std::bit_cast<std::array<char, 8>>(same_samples()(t, 0));
+    const auto four = std::bit_cast<std::array<char, 4>>(static_cast<float>(t / 128.0));
+    text.append(wide ? eight.data() : four.data(), wide ? 8 : 4);
+    text.append(value.data(), 8);
+  }
+  const std::string size = fmt::format("{:12d}", 8 * 400), form = fmt::format("{:10d}{:10d}", 400, 1);
+  text.replace(text.find(size), 12, fmt::format("{:12d}", (wide ? 16 : 12) * 400));
+  text.replace(text.find(form), 20, fmt::format("{:10d}{:10d}", 400, 0));
+  return text + "\n    -1\n";
+}
+
+TEST(Universal58, UnevenTimesOfFourOrEightBytes) {
+  const Scratch scratch;
+  for (const bool wide : {false, true}) {
+    const Record record = read(scratch.write("u.uff", uneven_58b(wide)));
+    EXPECT_EQ(record.samples, same_samples().leftCols(1)) << wide;
+    EXPECT_NEAR(record.info.rate_Hz, 128.0, 1e-4) << wide;
+  }
+}
+
 TEST(Universal, ShapesGeometryAndUnitsComeBack) {
   const Scratch scratch;
   UniversalData data;
