@@ -190,7 +190,7 @@ hold: build ## where a change of numbers is meant: hold those of the smoke chain
 	@cmake --build $(BUILD) -j $(JOBS) --target blind_form test_blind_modes
 	@TWINDECK_HOLD=1 $(BIN)/test_blind_modes --gtest_brief=1
 	@TWINDECK_HOLD=1 $(PRODUCT)workflows/python.sh -m unittest tests/steps/test_held_numbers.py
-	@$(BIN)/blind_form 7 9000 --hold tests/blind/form/held_9000.csv
+	@OPENBLAS_CORETYPE=Haswell $(BIN)/blind_form 7 9000 --hold tests/blind/form/held_9000.csv
 
 sanitize: ## unit tests, broken inputs and the smoke chain under address, undefined-behaviour and thread sanitizers (ONLY=address or thread)
 	@tests/sanitize/run.sh $(JOBS) $(ONLY)

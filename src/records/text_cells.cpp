@@ -110,7 +110,7 @@ std::optional<double> number_in(std::string_view cell, bool decimal_comma) {
   constexpr std::string_view missing =
       "|null|na|n/a|n.a.|n.v.|k.a.|none|missing|lost|void|empty|undefined|no data|nodata|no signal|over|ovld|ovl|ol|overflow|"
       "overload|over range|overrange|out of range|outofrange|sat|saturated|clip|clipped|under|underflow|underrange|invalid|"
-      "bad|open|error|err|fault|fail|failed|";
+      "bad|open|fault|fail|failed|";
   std::string text = lower(cell);
   if (text.find_first_not_of("-*?.") == std::string::npos) return nan;  // "---", "****"
   text.erase(0, text.front() == '-' || text.front() == '+' ? 1 : 0);

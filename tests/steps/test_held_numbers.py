@@ -27,6 +27,9 @@ BIN = pathlib.Path(os.environ.get("TWINDECK_BIN", ROOT / "build" / "bin"))
 HELD = pathlib.Path(__file__).parent / "held"
 # Of a column's root mean square. Other processors' kernels move a column by up to 1e-6 of its largest number (test_processors).
 TOLERANCE = 1e-5
+# Of a diagnosis. A fit ends where chi² falls by less than 0.02, and may end on either side of where a mode changes its partner: other processors'
+# kernels move log odds by up to 0.1 of 300. All runs here use the kernels of one processor.
+OF_FITS = 1e-3
 # Rounding alone, where a basis holds the measured modes exactly.
 NOT_HELD = NOT_COMPARED | {"full_model.largest_deviation_pct"}
 
@@ -74,7 +77,7 @@ def columns_of(results):
     return pd.DataFrame(rows, columns=["file", "column", "rows", "rms", "in_order", "words"])
 
 
-def moved(held, found):
+def moved(held, found, tolerance=TOLERANCE):
     """Words for every column that is not where it was."""
     out = []
     key = ["file", "column"]
@@ -90,13 +93,13 @@ def moved(held, found):
         size = max(float(row.rms), scale.get((row.file, row.column.removesuffix("_imag")), 0.0)) or abs(float(row.in_order))
         if row.rows != row.rows_now or row.words != row.words_now:
             out.append(f"{name} has other rows or words")
-        elif any(abs(float(a) - float(b)) > TOLERANCE * size for a, b in ((row.rms, row.rms_now), (row.in_order, row.in_order_now))):
+        elif any(abs(float(a) - float(b)) > tolerance * size for a, b in ((row.rms, row.rms_now), (row.in_order, row.in_order_now))):
             out.append(f"{name}: rms {row.rms} is {row.rms_now}, in order {row.in_order} is {row.in_order_now}")
     return out
 
 
 def run(command):
-    environment = {k: v for k, v in os.environ.items() if k not in ("MAKEFLAGS", "MAKELEVEL", "MFLAGS")}
+    environment = {k: v for k, v in os.environ.items() if k not in ("MAKEFLAGS", "MAKELEVEL", "MFLAGS")} | {"OPENBLAS_CORETYPE": "Haswell"}
     done = subprocess.run([str(word) for word in command], cwd=ROOT, capture_output=True, text=True, env=environment)
     if done.returncode:
         raise AssertionError(f"{command} failed with {done.returncode}:\n{done.stdout}\n{done.stderr}")
@@ -126,13 +129,13 @@ class HeldNumbers(unittest.TestCase):
         self.folder = pathlib.Path(self.enterContext(tempfile.TemporaryDirectory()))
         self.results = self.folder / "results"
 
-    def assert_held(self, name, least):
+    def assert_held(self, name, least, tolerance=TOLERANCE):
         held, found = HELD / f"{name}.csv", columns_of(self.results)
         if os.environ.get("TWINDECK_HOLD"):
             found.to_csv(held, index=False)
         kept = pd.read_csv(held, dtype=str, keep_default_na=False).astype({"rows": int})
         self.assertGreater(len(kept), least)
-        self.assertEqual(moved(kept, found), [])
+        self.assertEqual(moved(kept, found, tolerance), [])
 
     def test_the_smoke_chain_is_where_it_was(self):
         smoke(self.results)
@@ -140,14 +143,14 @@ class HeldNumbers(unittest.TestCase):
 
     def test_diagnoses_of_a_chain_and_a_girder_are_where_they_were(self):
         diagnoses(self.folder, self.results)
-        self.assert_held("diagnoses", 200)
+        self.assert_held("diagnoses", 200, OF_FITS)
 
     def test_a_diagnosis_of_the_smoke_chain_is_where_it_was(self):
         """Damped modes, stays and sixteen channels of the bridge, by an unrefined model that is far off."""
         smoke(self.folder / "chain")
         diagnose(self.folder / "chain/s4_refinement/model", self.folder / "chain/s3_identification/features", self.results / "bridge",
                  "sensor_tolerance=10 m", "names_alike=true", "zones=6", "nodes=4")
-        self.assert_held("diagnosis_of_smoke", 100)
+        self.assert_held("diagnosis_of_smoke", 100, OF_FITS)
 
     def test_a_moved_number_another_order_and_another_word_are_seen(self):
         def table(text):

@@ -154,6 +154,28 @@ void FeatureMap::add_static_form() {
   }
 }
 
+void FeatureMap::list_places(const ScatterOptions& scatter) {
+  const auto add = [&](const std::string& set, bool mass, double deviation, auto has) {
+    const auto found = model_.sets.find(set);
+    if (found == model_.sets.end()) return;
+    for (std::size_t i = 0; i < found->second.size(); ++i)
+      if (const ReducedPlace& p = found->second[i]; has(p))
+        nuisances_.push_back({Nuisance::Kind::place, static_cast<int>(i), p.id + (mass ? " mass" : " stiffness"), 0.0,
+                              scatter.fine * deviation, -kWorst, kWorst, set, mass});
+  };
+  const auto any = [](const ReducedPlace&) { return true; };
+  const auto is_flexible = [](const ReducedPlace& p) {  // what stands for a rigid support has no size of its own
+    const auto high = p.attributes.find("f_high");
+    return high == p.attributes.end() || high->second > 1.0;
+  };
+  add("zones", false, scatter.element_stiffness, any);
+  add("zones", true, scatter.element_mass, any);
+  add("nodes", true, scatter.node_mass, [](const ReducedPlace& p) { return p.mass.size() > 0; });
+  add("stays", false, scatter.stay_stiffness, any);
+  add("supports", false, scatter.support_stiffness, is_flexible);
+  add("foundations", false, scatter.support_stiffness, is_flexible);
+}
+
 void FeatureMap::list_nuisances(const ScatterOptions& scatter) {
   const auto add = [&](Nuisance::Kind kind, int index, const std::string& name, double mean, double deviation,
                        double lower = -kWorst, double upper = kWorst) {
@@ -166,36 +188,14 @@ void FeatureMap::list_nuisances(const ScatterOptions& scatter) {
     add(Nuisance::Kind::parameter, static_cast<int>(p), parameter.name, mean, deviation, (parameter.lower - mean) / deviation,
         (parameter.upper - mean) / deviation);
   }
-  const auto each = [&](const std::string& set, auto use) {
-    const auto found = model_.sets.find(set);
-    if (found == model_.sets.end()) return;
-    for (std::size_t i = 0; i < found->second.size(); ++i) use(static_cast<int>(i), found->second[i]);
-  };
-  const auto add_places = [&](const std::string& set, bool mass, double deviation, auto has) {
-    each(set, [&](int i, const ReducedPlace& p) {
-      if (!has(p)) return;
-      add(Nuisance::Kind::place, i, p.id + (mass ? " mass" : " stiffness"), 0.0, scatter.fine * deviation);
-      nuisances_.back().set = set;
-      nuisances_.back().of_mass = mass;
-    });
-  };
-  const auto any = [](const ReducedPlace&) { return true; };
-  add_places("zones", false, scatter.element_stiffness, any);
-  add_places("zones", true, scatter.element_mass, any);
-  add_places("nodes", true, scatter.node_mass, [](const ReducedPlace& p) { return p.mass.size() > 0; });
-  add_places("stays", false, scatter.stay_stiffness, any);
-  const auto is_flexible = [](const ReducedPlace& p) {  // what stands for a rigid support has no size of its own
-    const auto high = p.attributes.find("f_high");
-    return high == p.attributes.end() || high->second > 1.0;
-  };
-  add_places("supports", false, scatter.support_stiffness, is_flexible);
-  add_places("foundations", false, scatter.support_stiffness, is_flexible);
+  list_places(scatter);
   std::set<std::string> stay_rows;
   for (const Row& row : features_.rows)
     if (row.type == RowType::stay_frequency) stay_rows.insert("stay:" + row.stay);
-  each("stays", [&](int i, const ReducedPlace& p) {
-    if (stay_rows.contains(p.id)) add(Nuisance::Kind::stay_pull, i, p.id + " pull", 0.0, scatter.stay_pull);
-  });
+  if (const auto stays = model_.sets.find("stays"); stays != model_.sets.end())
+    for (std::size_t i = 0; i < stays->second.size(); ++i)
+      if (const std::string& id = stays->second[i].id; stay_rows.contains(id))
+        add(Nuisance::Kind::stay_pull, static_cast<int>(i), id + " pull", 0.0, scatter.stay_pull);
   std::map<int, bool> channels;
   std::map<int, bool> levels;
   for (const Row& row : features_.rows) {

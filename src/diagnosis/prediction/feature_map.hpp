@@ -128,6 +128,7 @@ class FeatureMap {
   /// Key of a mode's structural damping: its label, the state of the structure, and that of the dampers if it counts.
   [[nodiscard]] std::string damping_name(const std::string& label, int condition) const;
   void collect_modes();
+  void list_places(const ScatterOptions& scatter);
   void list_nuisances(const ScatterOptions& scatter);
   void transform(const ScatterOptions& scatter);
   void add_static_form();  ///< what every model leaves open of a load test

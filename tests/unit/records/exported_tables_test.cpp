@@ -108,7 +108,7 @@ TEST(ExportedTable, WordsForWhatIsMissingAndTextThatIsNone) {
     for (int t = 1; t < 300; ++t) text += fmt::format("{:.2f},{},{}\n", 0.01 * t, t == 50 ? word : cell(wave(t, 0)), "0.5");
     return text;
   };
-  for (const char* word : {"overflow", "Error", "#WERT!", "#N/A", "saturated", "n.v.", "-Infinity"}) {
+  for (const char* word : {"overflow", "Fault", "#WERT!", "#N/A", "saturated", "n.v.", "-Infinity"}) {
     const Record record = read(scratch.write("a.csv", table(word)));
     ASSERT_EQ(record.samples.rows(), 300) << word;
     EXPECT_TRUE(std::isnan(record.samples(50, 0)) && std::isnan(record.samples(0, 0))) << word;
