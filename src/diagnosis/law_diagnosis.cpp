@@ -406,8 +406,11 @@ void add_open_modes(const FeatureMap& map, const ByLaw& engine, Diagnosis& out) 
 
 std::string message_by_law(const Diagnosis& out, const ByLaw& engine) {
   if (out.verdict == Verdict::named || out.verdict == Verdict::ambiguous) return out.effects.front().sentence;
-  const std::string scales = fmt::format("the model's form is off by about {:.1f} % in frequency and {:.1f} % in shape",
-                                         100.0 * out.form->frequency.level, 100.0 * out.form->shape.level);
+  const auto& modes = out.with_form->measured_modes();
+  const bool shapes = std::any_of(modes.begin(), modes.end(), [](const MeasuredMode& mode) { return !mode.real_rows.empty(); });
+  const std::string scales =
+      fmt::format("the model's form is off by about {:.1f} % in frequency{}", 100.0 * out.form->frequency.level,
+                  shapes ? fmt::format(" and {:.1f} % in shape", 100.0 * out.form->shape.level) : "");
   if (out.verdict == Verdict::none)
     return fmt::format("nothing found: {} ({}). A cause that acts in every condition and changes less than that cannot be seen",
                        engine.reason(), scales);

@@ -198,6 +198,9 @@ std::vector<DecayResult> identify_free_decays(const std::vector<Conditioned>& re
     }
     const IdentifyOptions options = own.options(conditioned.rate_Hz, conditioned.channels);
     result.found = identify_decays(pieces, conditioned.rate_Hz, options, seed, quiet);
+    const auto tests = std::count_if(records.begin(), records.end(),
+                                     [&](const Conditioned& other) { return other.condition == conditioned.condition; });
+    if (tests == 1 && options.selection == Selection::automatic) drop_noise_of_a_decay(result.found, length);
     to_physical_shapes(result.found, conditioned.channels, scale);
     take_choices(result.found, config.choices, conditioned, scale);
     const ConditionResult* ambient = condition_named(results, conditioned.condition);

@@ -48,7 +48,8 @@ bool is_settled(const Cluster& mode, const ModeDeviation& deviation, const Ident
   const double f = mode.frequency_Hz, zeta = std::max(mode.damping_ratio, 1e-6), relative = deviation.frequency_Hz / f;
   if (options.selection == Selection::paper) return options.largest_deviation <= 0.0 || relative <= options.largest_deviation;
   const double share = options.largest_bandwidth_share;
-  if (seconds <= 0.0) return share <= 0.0 || deviation.frequency_Hz <= share * zeta * f;
+  // A decay whose damping may be none is not known to decay: noise has such poles, well known in frequency by chance.
+  if (seconds <= 0.0) return share <= 0.0 || (deviation.frequency_Hz <= share * zeta * f && deviation.damping_ratio <= zeta);
   if (options.largest_law_ratio <= 0.0) return true;
   // In relation to the half bandwidth and to the damping ratio itself, the least deviation is the same number.
   const double law = std::sqrt(1.0 / (2.0 * std::numbers::pi * f * zeta * seconds)), short_record = kNearLaw * law;
@@ -322,8 +323,6 @@ Identification identify_decays(const std::vector<Eigen::MatrixXd>& decays, doubl
   const FreeDecay found = era(decays, options.block_rows, options.orders(), rate_Hz, seed, kDraws, quiet);
   Identification result = select(found.models, options);
   add_deviations(result, found.observability, found.models, found.changes, options, 0.0);
-  if (options.selection == Selection::automatic && options.largest_bandwidth_share > 0.0)
-    drop_noise_of_a_decay(result, decays.front().rows());
   return result;
 }
 

@@ -43,7 +43,7 @@ struct IdentifyOptions {
   /// more. 0 keeps all.
   double largest_law_ratio = 10.0;
   /// Automatic selection: dropped if it exceeds this share of the half bandwidth zeta f; of a record also three times the lower
-  /// limit, since in few cycles no mode is known better. 0 keeps all.
+  /// limit, since in few cycles no mode is known better; of a decay also if its damping ratio may be none. 0 keeps all.
   double largest_bandwidth_share = 0.5;
 
   [[nodiscard]] std::vector<int> orders() const;
@@ -105,7 +105,7 @@ void drop_undetermined(Identification& result, const IdentifyOptions& options, d
 
 /// Drops the poles of a free decay that noise may have: it has one wherever a few of its samples happen to decay, and of n
 /// samples the largest reaches sqrt(2 ln n) standard deviations (Donoho and Johnstone 1994). The damping ratio of a mode, which
-/// is its decay, must exceed that.
+/// is its decay, must exceed that. For a test that no other one confirms.
 void drop_noise_of_a_decay(Identification& result, Eigen::Index samples);
 
 /// Drops the modes that are known better than random forces allow: below the lower limit of IdentifyOptions by more than

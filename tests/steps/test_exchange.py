@@ -304,7 +304,7 @@ class ImportedByHand(Folder):
         self.refused(cantilever().replace("section=RECT", "section=ARBITRARY"), "unsupported SECTION=ARBITRARY")
 
     def test_other_faults(self):
-        self.refused(cantilever().replace("*End Part", "*Include, input=a.inp\n*End Part"), "*INCLUDE", "unsupported card")
+        self.refused(cantilever().replace("*End Part", "*Include, input=a.inp\n*End Part"), "*INCLUDE", "'a.inp' is not there")
         self.refused(cantilever().replace("20, 20, 21", "20, 20, 99"), "node 99 is not defined")
         self.refused(cantilever().replace("material=\"Steel S355\",", "material=steal,"), "material 'steal' is not defined")
         self.refused(cantilever().replace("elset=All, material", "elset=Al, material"), "no set is called 'Al' (did you mean 'All'?)")

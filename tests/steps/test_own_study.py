@@ -121,7 +121,7 @@ class OwnStudy(unittest.TestCase):
         self.assertGreater(curve[-1], 0.9)
         self.assertGreater(float(rows("s10_reliability/visible.csv")[0]["smallest_loss_m"]), 0.0)
         page = (self.root / "results/bridge/report/report.html").read_text(encoding="utf-8")
-        for part in ('<section id="reliability">', "In which wind does the bridge become uncomfortable", "What monitoring would see", "Critical speed, with its"):
+        for part in ('<section id="reliability">', "In which wind does the bridge become uncomfortable", "What monitoring would see", "instability (5 to 95 %)"):
             self.assertIn(part, page)
 
     def test_updating_finds_what_the_records_were_made_with(self):

@@ -16,7 +16,9 @@ namespace {
 using Eigen::Index;
 using Eigen::VectorXd;
 
-constexpr int kMeasuredDigits = 4;        ///< of measured values: frequencies are known to a part in a thousand
+constexpr int kMeasuredDigits = 4;  ///< of measured values: frequencies are known to a part in a thousand
+constexpr int kOddsDigits = 2;
+constexpr double kMostOdds = 1000.0;      ///< to 1: a person does not tell larger ones apart
 constexpr int kCountDigits = 9;           ///< of a number of rows: all of them
 constexpr std::size_t kRivals = 3;        ///< that are named one by one
 constexpr double kAlmostOne = 0.995;      ///< probabilities that two digits would show as 1
@@ -229,6 +231,14 @@ std::string probability_words(double p) {
   return p < kAlmostNothing ? "below 0.01" : fmt::format("{:.2f}", p);
 }
 
+/// "40 to 1", "1 to 40", "above 1,000 to 1".
+std::string odds_words(double log_odds) {
+  const double most = std::log(kMostOdds), shown = std::clamp(log_odds, -most, most);
+  const std::string larger = number_in_words(std::exp(std::abs(shown)), kOddsDigits);
+  const std::string text = shown < 0.0 ? "1 to " + larger : larger + " to 1";
+  return log_odds > most ? "above " + text : log_odds < -most ? "below " + text : text;
+}
+
 std::string rivals_words(const Effect& effect, const IdsInWords& ids) {
   if (effect.rivals.empty()) return "No other cause of the catalogue comes near.";
   std::vector<std::string> named;
@@ -261,13 +271,14 @@ std::string how_sure_of_each(const Diagnosis& result, const IdsInWords& ids) {
 std::string how_sure_it_is(const Diagnosis& result, const IdsInWords& ids) {
   if (result.verdict == Verdict::none)
     return fmt::format(
-        "No cause of the catalogue explains enough to be named. The best one has log odds of {:.1f} against no cause, and a "
-        "name needs {:.1f}.",
-        result.log_odds, result.threshold);
+        "No cause of the catalogue explains enough to be named. The odds of the best one against no cause are {}, and a name "
+        "needs "
+        "{}.",
+        odds_words(result.log_odds), odds_words(result.threshold));
   if (result.effects.empty())
     return fmt::format(
-        "No cause of the catalogue explains enough to be named. The nearest has log odds of {:.1f} against no cause.",
-        result.log_odds);
+        "No cause of the catalogue explains enough to be named. The odds of the nearest against no cause are {}.",
+        odds_words(result.log_odds));
   std::string text;
   if (result.verdict == Verdict::unknown)
     text = fmt::format("Not sure: {}. ",

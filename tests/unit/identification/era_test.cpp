@@ -79,7 +79,6 @@ TEST(Era, DeviationsAreCalibratedForDecaysUnderAmbientVibration) {
   options.block_rows = 40;
   options.minimum_order = 6;
   options.maximum_order = 16;
-  options.largest_bandwidth_share = 0.0;  // modes that are hardly known too: their errors count here
   test::NormalisedErrors with, without;
   for (std::uint64_t seed = 1; seed <= 30; ++seed) {
     const Eigen::MatrixXd ambient = level * chain.simulate(240 + 600, seed, 0.05);

@@ -148,14 +148,19 @@ TEST(ToldSentences, HowSureOfWhatIsNotNamedSaysWhatIsLacking) {
   const Told told;
   Diagnosis result = told.base;
   result.verdict = Verdict::none;
-  result.log_odds = 1.25;
-  result.threshold = 4.75;
-  EXPECT_EQ(told.said(result).how_sure,
-            "No cause of the catalogue explains enough to be named. The best one has log odds of 1.2 against no cause, and a "
-            "name needs 4.8.");
+  result.threshold = std::log(19.0);
+  for (const auto& [odds, words] : {std::pair(3.5, "3.5 to 1"), {0.025, "1 to 40"}, {1e-9, "below 1 to 1,000"}}) {
+    result.log_odds = std::log(odds);
+    EXPECT_EQ(told.said(result).how_sure,
+              "No cause of the catalogue explains enough to be named. The odds of the best one against no cause are " +
+                  std::string(words) + ", and a name needs 19 to 1.");
+  }
   result.verdict = Verdict::unknown;
-  EXPECT_EQ(told.said(result).how_sure,
-            "No cause of the catalogue explains enough to be named. The nearest has log odds of 1.2 against no cause.");
+  result.log_odds = 363.2;
+  EXPECT_EQ(
+      told.said(result).how_sure,
+      "No cause of the catalogue explains enough to be named. The odds of the nearest against no cause are above 1,000 to "
+      "1.");
   result.effects = {Told::effect(told.first, 0.5), Told::effect(told.second, 0.4)};
   result.message = "two are alike";
   EXPECT_EQ(told.said(result).how_sure,
