@@ -47,7 +47,7 @@ struct Assembly {
   const std::map<std::string, std::vector<OnePlace>>& sets;
   const VectorXd& theta;                                              ///< values of the parameters
   const std::vector<int> columns;                                     ///< of the reduced basis that are used
-  std::map<std::pair<const OnePlace*, bool>, double> own_error = {};  ///< of a place's mass, else of its stiffness
+  std::map<std::pair<const OnePlace*, bool>, double> own_error = {};  ///< of a place's mass (true) or stiffness
 
   /// The place of a candidate, in the set of its hypothesis or else in any: a support and its foundation have one name.
   [[nodiscard]] const OnePlace* find(const Candidate& candidate, std::size_t which) const {
@@ -120,8 +120,9 @@ struct Assembly {
   /// Takes the support away and puts its springs up again between the nodes where it stands.
   void move(const OnePlace& place, double position) {
     add(stiffness, -1.0, place.stiffness, place.stiffness_law);
-    for (const auto& [own, amount] : own_error)
-      if (!own.second && own.first->id == place.id) add(stiffness, -amount, own.first->stiffness);
+    if (const auto supports = sets.find("supports"); supports != sets.end())
+      for (const OnePlace& own : supports->second)
+        if (own.id == place.id) add(stiffness, -own_error_of(own, false), own.stiffness);
     const double ratio = place.stiffness_law.ratio.value(theta);
     const auto [station, part] = on_line(place.attributes, position);
     const Index springs = place.directions.cols() / static_cast<Index>(place.attributes.at("stations"));

@@ -204,7 +204,8 @@ void Predictor::add_change(const ReducedPlace& place, double change, bool mass, 
     const Nuisance& v = map_.nuisances()[j];
     if (v.kind != Nuisance::Kind::place || v.of_mass != mass) continue;
     const ReducedPlace& own = map_.place_of(v);
-    if (&own != &place && !(own.id == place.id && place.attributes.contains("stations"))) continue;
+    const bool moves = v.set == "supports" && own.id == place.id && place.attributes.contains("stations");
+    if (&own != &place && !moves) continue;
     to += change * v.deviation * base_.x[static_cast<Index>(j)] * sliced(map_.scattered(v), columns_, to.rows());
     followed_.push_back({-1, change, &map_.scattered(v), mass, {}, static_cast<int>(j)});
   }

@@ -233,6 +233,34 @@ TEST(FullCheck, ASupportThatMovesHoldsWhereItStands) {
   }
 }
 
+// The springs that leave take their own error along; the foundation of the same name stays, and so does its error.
+TEST(FullCheck, ASupportThatMovesLeavesItsFoundationBehind) {
+  const TwoNodes nodes([](diagnosis::Places& places) {
+    diagnosis::Place pier = on_dof("support:pier", 0, 2, 6e5);
+    places.sets["supports"] = {pier};
+    places.sets["foundations"] = {on_dof("support:pier", 0, 0, 5e5)};
+    pier.directions.resize(6, 3);
+    pier.directions.insert(2, 0) = 1.0;
+    pier.directions.insert(5, 1) = 1.0;
+    pier.directions.insert(4, 2) = 1.0;
+    pier.attributes = {{"stations", 3.0}, {"x_0", 0.0}, {"x_1", 2.0}, {"x_2", 6.0}, {"k_0", 6e5}};
+    places.sets["support_moves"] = {pier};
+  });
+  HandMade move("support.move", {{"position", 2.0}}, {nodes.model.place("support_moves", "support:pier")});
+  move.hypothesis.set = "support_moves";
+  const diagnosis::FeatureMap map = nodes.model.map();
+  VectorXd x = VectorXd::Zero(std::ssize(map.nuisances()));
+  MatrixXd k = nodes.stiffness - 6e5 * squared(nodes.axis(0, 2)) + 6e5 * squared(nodes.axis(1, 2));
+  for (std::size_t j = 0; j < map.nuisances().size(); ++j) {
+    const auto& v = map.nuisances()[j];
+    if (v.set != "supports" && v.set != "foundations") continue;
+    x[static_cast<Eigen::Index>(j)] = 3.0;
+    if (v.set == "foundations") k += 3.0 * v.deviation * 5e5 * squared(nodes.axis(0, 0));
+  }
+  const VectorXd found = nodes.check({move.cause()}, 6, x).full_Hz, expected = dense_hertz(k, nodes.mass);
+  for (Eigen::Index i = 0; i < found.size(); ++i) EXPECT_NEAR(found[i] / expected[i], 1.0, 1e-7) << i;
+}
+
 // Each unknown of the scatter moves the matrix of its place by x of its deviations.
 TEST(FullCheck, HasTheScatterOfTheFit) {
   const TwoNodes nodes([](diagnosis::Places& places) {
