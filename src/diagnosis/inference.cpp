@@ -59,8 +59,7 @@ struct Magnitudes {
   }
 };
 
-/// Change of rows by a small step. A measured mode that is another of the model's after the step has jumped there: its rows
-/// tell no slope.
+/// Change of rows by a small step, 0 in the rows of modes that the step pairs with another mode of the model: they jump.
 VectorXd change_of_same_modes(const FeatureMap& map, const Prediction& from, const Prediction& to) {
   VectorXd change = change_between(from, to);
   for (std::size_t m = 0; m < from.paired.size(); ++m) {

@@ -181,8 +181,7 @@ class ByLaw {
     }
   }
 
-  /// A leading set that leaves more than a part of what changed is no account of it, though nothing else may come nearer. Nor
-  /// is a cause whose size may be none.
+  /// Refuses a leading set that leaves more than a part of what changed, and a cause whose interval of the size holds none.
   void refuse_partial() {
     if (out_.verdict != Verdict::named && out_.verdict != Verdict::ambiguous) return;
     const LawAccount& leader = search_.accounts.front();

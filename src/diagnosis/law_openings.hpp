@@ -22,10 +22,10 @@ struct OpenedEvidence {
 [[nodiscard]] OpenedEvidence scored_with_openings(const Inference& plain, LawSystem& system, const LawHypothesis& hypothesis,
                                                   const Eigen::VectorXd& start);
 
-/// The rows of some measured modes as open as those of none of the model's.
+/// A map in which the model may miss the rows of some measured modes by as much as those of a mode that it does not have.
 [[nodiscard]] FeatureMap with_open(FeatureMap map, const std::vector<int>& modes);
 
-/// A fit in which they are.
+/// A fit to such a map.
 [[nodiscard]] Fit fit_with_open(const Inference& inference, const std::vector<int>& modes, const std::vector<Cause>& causes,
                                 const Eigen::VectorXd& start);
 

@@ -146,8 +146,8 @@ void weigh_fit(const LawSetting& setting, const LawSearch& search, LawAccount& a
   account.scored = true;
 }
 
-/// A set with its causes in the model, fitted from each start of the parameters. One factor starts from either side of one: the
-/// base may have taken it up into a parameter of its like, so that it looks as if the others had the reverse.
+/// Fits a set with its causes in the model from each start of the parameters. A single factor starts from both sides of one:
+/// the base may have moved a parameter of several places for one of them, and the others then look as if they had changed.
 void refine_by_law(const LawSetting& setting, const LawSearch& search, LawAccount& account,
                    const std::vector<VectorXd>& starts) {
   std::vector<std::vector<Cause>> causes = {search.base.causes};
@@ -374,7 +374,7 @@ LawSearch search_by_law(const LawSetting& setting, const Fit& base) {
   const auto n = static_cast<Index>(setting.plain.map().nuisances().size());
   const std::vector<VectorXd> starts = {out.base.map.x.head(n), {}};
   std::set<int> done;
-  for (int round = 0; round < kLeadingRounds; ++round) {  // what a round has fitted may put others among the leading
+  for (int round = 0; round < kLeadingRounds; ++round) {  // a fit may bring other entries among the leading
     const std::vector<LawAccount*> these = leading_accounts(out, done);
     if (these.empty()) break;
     parallel_for_told(

@@ -108,8 +108,8 @@ Index length_of(const std::vector<Eigen::MatrixXd>& decays, double rate_Hz, Iden
   return length;
 }
 
-/// Where the band ends that the configuration leaves open: above the reach of the motion poles are those of noise that the
-/// filter has coloured.
+/// Upper end [Hz] of a band that the configuration leaves open. Above the motion's reach the filter colours noise, which then
+/// has poles.
 double band_end(const Conditioned& decay) {
   constexpr double kBeyond = 1.1;  // of the reach: the flank of a mode there
   const double widest = kFilteredBand * 0.5 * decay.rate_Hz;

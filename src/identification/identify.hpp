@@ -103,9 +103,8 @@ void keep_modes(Identification& result, const std::vector<bool>& stays);
 /// @param seconds  length of the ambient records; 0: free decays
 void drop_undetermined(Identification& result, const IdentifyOptions& options, double seconds);
 
-/// Drops the poles of a free decay that noise may have: it has one wherever a few of its samples happen to decay, and of n
-/// samples the largest reaches sqrt(2 ln n) standard deviations (Donoho and Johnstone 1994). The damping ratio of a mode, which
-/// is its decay, must exceed that. For a test that no other one confirms.
+/// Drops poles that noise may have, from a free decay that no other test confirms. The largest of n samples of noise reaches
+/// sqrt(2 ln n) standard deviations (Donoho and Johnstone 1994); a mode's damping ratio must exceed as many of its own.
 void drop_noise_of_a_decay(Identification& result, Eigen::Index samples);
 
 /// Drops the modes that are known better than random forces allow: below the lower limit of IdentifyOptions by more than

@@ -43,8 +43,8 @@ struct InpPlan {
 /// The *BOUNDARY cards that hold in that step: OP=NEW in a step drops those before the step.
 [[nodiscard]] std::vector<const InpCard*> boundaries_in_force(const InpFile& file);
 
-/// @throws InputError  if the step with *FREQUENCY holds other directions than the static steps before it: the state that loads
-///         reach there is another one
+/// @throws InputError  if the step with *FREQUENCY holds other directions than the static steps, whose loaded state it starts
+/// from
 void refuse_other_supports_than_of_static_steps(const InpFile& file);
 
 }  // namespace twindeck::model_io

@@ -39,10 +39,10 @@ void list_channels(const std::vector<NamedArray>& arrays, const ArrayChoice& cho
 /// @param columns  of the matrix
 void name_channels(const std::vector<std::string>& texts, Eigen::Index columns, RecordInfo& info);
 
-/// Rate that a scalar of this name and value says; 0 for none: fs, rate, sampling frequency …, dt, ts, dt_ms … A step without a
-/// unit is in that which gives 1 to 100,000 Hz.
+/// Rate [Hz] by a scalar's name (fs, rate, sampling frequency …, dt, ts, dt_ms …) and value; 0 for other names. Of a step whose
+/// name has no unit, the unit that gives 1 to 100,000 Hz counts.
 [[nodiscard]] double rate_of(const std::string& name, double value);
 
-/// [s] at the end of the name of a vector of times ("time_ms"); 0 where it gives none.
+/// Unit [s] at the end of the name of a vector of times ("time_ms"); 0 without one.
 [[nodiscard]] double time_unit_of(const std::string& name);
 }  // namespace twindeck::records

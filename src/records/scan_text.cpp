@@ -111,7 +111,7 @@ class Rows {
   Rows(const TextLayout& layout, std::vector<std::size_t> columns)
       : layout_(layout), columns_(std::move(columns)), clock_(layout), row_(columns_.size()) {}
 
-  /// The stray line is a row but for text in a channel's cell.
+  /// Whether the stray line has a row's cells, one of them with text.
   [[nodiscard]] bool is_one_cell() const { return one_cell_; }
   enum class Kind { blank, row, stray, cut };
   /// What a line is; of a row the values and the time, of a stray line why it is no row.

@@ -33,7 +33,7 @@ struct ScatterOptions {
 struct Nuisance {
   enum class Kind { parameter, place, stay_pull, gain, mode_damping, level };
   Kind kind = Kind::parameter;
-  int index = 0;     ///< of the parameter, of the place in its set, channel; of `damping_modes`; of the level
+  int index = 0;     ///< position among the parameters, places of `set`, channels, damping modes or levels
   std::string name;  ///< "E_s", "element:17 stiffness", "mode 3 damping", for tables
   double mean = 0.0, deviation = 1.0;
   double lower, upper;   ///< hard bounds in prior units (parameters), ± infinity otherwise

@@ -272,8 +272,7 @@ std::string how_sure_it_is(const Diagnosis& result, const IdsInWords& ids) {
   if (result.verdict == Verdict::none)
     return fmt::format(
         "No cause of the catalogue explains enough to be named. The odds of the best one against no cause are {}, and a name "
-        "needs "
-        "{}.",
+        "needs {}.",
         odds_words(result.log_odds), odds_words(result.threshold));
   if (result.effects.empty())
     return fmt::format(
