@@ -95,7 +95,7 @@ class ByLaw {
     winner_ = search_.nothing.evidence;
     opened_ = search_.nothing.opened;
     reason_ = reason_of_verdict();
-    refuse_partial();
+    refuse_nil();
     guard();
     if ((out_.verdict == Verdict::named || out_.verdict == Verdict::ambiguous) && options_.most_causes == 0) {
       out_.verdict = Verdict::unknown;
@@ -181,18 +181,14 @@ class ByLaw {
     }
   }
 
-  /// Refuses a leading set that leaves more than a part of what changed, and a cause whose interval of the size holds none.
-  void refuse_partial() {
+  /// Refuses a cause whose interval of the size holds none.
+  void refuse_nil() {
     if (out_.verdict != Verdict::named && out_.verdict != Verdict::ambiguous) return;
     const LawAccount& leader = search_.accounts.front();
-    const double left = left_of_change(leader);
-    if (left > kMostLeft)
-      reason_ = fmt::format("the best cause leaves {:.0f} % of what changed", 100.0 * left);
-    else if (leader.refined() && leader.with.causes.size() == 1 &&
-             may_be_zero(effect_parameters(setting_.informed, leader.with, 0), *leader.with.causes.front().candidate))
-      reason_ = "the size of the best cause cannot be told from zero";
-    else
+    if (!leader.refined() || leader.with.causes.size() != 1 ||
+        !may_be_zero(effect_parameters(setting_.informed, leader.with, 0), *leader.with.causes.front().candidate))
       return;
+    reason_ = "the size of the best cause cannot be told from zero";
     out_.verdict = without_a_cause();
   }
 

@@ -25,6 +25,7 @@ constexpr double kKeptMagnitudes = 10.0;  // nats of the best: farther ones add 
 constexpr double kOneFit = 0.01;          // prior deviations: nearer fits are one
 constexpr std::size_t kLeading = 6, kMostLeading = 10, kOfFewPlaces = 6;
 constexpr int kLeadingRounds = 4;
+constexpr double kStands = 1.0;                           // nats that one more fit gains: less is the same fit
 constexpr std::size_t kTriedBeside = 3;                   // entries that are tried beside the leading account
 constexpr double kNear = 8.0, kNearFamily = 12.0;         // nats of the best: worth a fit of their own …
 constexpr double kNearShare = 0.1, kFamilyShareOf = 0.3;  // … or this much of what it has over nothing
@@ -168,19 +169,57 @@ void refine_by_law(const LawSetting& setting, const LawSearch& search, LawAccoun
     }
 }
 
-/// Fits the leading accounts anew without the modes that they hold for none of the model's, which have bent the fit.
-void fit_without_opened(const LawSetting& setting, LawSearch& search) {
-  const double near = search.accounts.front().log_weight - kNear;
+/// A fit of an account under its own scales, what it holds for none of the model's modes left open, from where the law says
+/// that the unknowns are. The evidence is linear about a fit: far from it, it promises what the model does not hold.
+Fit fit_by_own_scales(const LawSetting& setting, const LawAccount& account) {
+  const LawSystem& system = *account.system;
+  const Index rows = system.residual.size();
+  MatrixXd share = MatrixXd::Zero(rows, rows);
+  for (std::size_t c = 0; c < system.classes.size(); ++c) {
+    const MatrixXd columns = account.evidence.tau[static_cast<Index>(c)] * system.classes[c];
+    if (columns.size() > 0) share += linalg::product(columns, columns.transpose());
+  }
+  const FeatureMap& plain = setting.plain.map();
+  MatrixXd further = MatrixXd::Zero(plain.values().size(), plain.values().size());
+  further(setting.plain.training(), setting.plain.training()) = share;
+  FeatureMap map = with_open(plain, account.opened);
+  map.add_covariance(further);
+  std::vector<Cause> causes = account.with.causes;
+  Index at = 0;
+  for (std::size_t c = causes.size() - account.causes.size(); c < causes.size(); ++c)
+    for (Index k = 0; k < causes[c].a.size(); ++k, ++at) causes[c].a[k] += account.evidence.shift[at];
+  return Inference(map, setting.plain.candidates()).fit(causes, account.with.map.x.head(std::ssize(plain.nuisances())));
+}
+
+/// Weight from which an account is worth fits of its own.
+double worth_a_fit(const LawSearch& search) {
+  const double best = search.accounts.front().log_weight;
+  return best - std::max(kNear, kNearShare * (best - search.none.log_evidence));
+}
+
+/// Puts a refined account to its fit under its own scales, whatever that takes from the weight, and on while that grows.
+void settle(const LawSetting& setting, const LawSearch& search, LawAccount& account) {
+  account.settled = true;
+  for (int round = 0; round < kLeadingRounds; ++round) {
+    LawAccount anew = account;
+    anew.system.reset();
+    if (Fit with = fit_by_own_scales(setting, account); with.made())
+      weigh_fit(setting, search, anew, VectorXd(account.evidence.tau), std::move(with));
+    if (!anew.refined() || (round > 0 && anew.log_weight < account.log_weight + kStands)) return;
+    account = std::move(anew);
+  }
+}
+
+/// Settles the leading accounts, until the best ones have been.
+void settle_leaders(const LawSetting& setting, LawSearch& search) {
   std::vector<LawAccount*> these;
-  for (LawAccount& account : search.accounts)
-    if (account.log_weight > near && account.refined() && !account.opened.empty()) these.push_back(&account);
-  parallel_for(these.size(), [&](std::size_t i) {
-    LawAccount& account = *these[i];
-    const VectorXd x = account.with.map.x.head(std::ssize(setting.plain.map().nuisances()));
-    Fit with = fit_with_open(setting.informed, account.opened, account.with.causes, x);
-    if (with.made()) weigh_fit(setting, search, account, VectorXd(account.evidence.tau), std::move(with));
-  });
-  sort_accounts(search.accounts);
+  do {
+    sort_accounts(search.accounts);
+    these.clear();
+    for (LawAccount& account : search.accounts)
+      if (account.refined() && !account.settled && account.log_weight > worth_a_fit(search)) these.push_back(&account);
+    parallel_for(these.size(), [&](std::size_t i) { settle(setting, search, *these[i]); });
+  } while (!these.empty());
 }
 
 /// Scales that a set starts from: those of its best member that was scored, with what is left over in each of its contrasts.
@@ -210,8 +249,13 @@ void fit_alone_from_sets(const LawSetting& setting, LawSearch& search) {
   };
   for (LawAccount& account : search.accounts)
     if (account.members.size() < leader.members.size() && account.refined() &&
-        std::all_of(account.members.begin(), account.members.end(), is_of_leader))
-      refine_by_law(setting, search, account, {x});
+        std::all_of(account.members.begin(), account.members.end(), is_of_leader)) {
+      LawAccount anew = account;
+      anew.system.reset();
+      refine_by_law(setting, search, anew, {x});
+      if (anew.refined()) settle(setting, search, anew);
+      if (anew.refined() && anew.log_weight > account.log_weight) account = std::move(anew);
+    }
 }
 
 /// Entries that promise most at the fit with the leading account in the model, each beside it.
@@ -250,13 +294,16 @@ void look_beside_leader(const LawSetting& setting, LawSearch& search) {
   for (std::size_t size = 1; size < kMostInASet; ++size) {
     const auto best = std::find_if(search.accounts.begin(), search.accounts.end(),
                                    [&](const LawAccount& a) { return a.members.size() == size && a.refined(); });
-    const bool leads = best == search.accounts.begin();
-    if (best == search.accounts.end() || (size > 1 && !leads && left_of_change(search.accounts.front()) < kMostLeft)) return;
+    if (best == search.accounts.end()) return;
     const LawAccount leader = *best;
     std::vector<LawAccount> sets = sets_beside(setting, search, leader);
     const VectorXd x = leader.with.map.x.head(static_cast<Index>(setting.plain.map().nuisances().size()));
     parallel_for_told(
-        sets.size(), [&](std::size_t i) { refine_by_law(setting, search, sets[i], {x}); },
+        sets.size(),
+        [&](std::size_t i) {
+          refine_by_law(setting, search, sets[i], {x});
+          if (sets[i].refined()) settle(setting, search, sets[i]);
+        },
         [&](int done, int of) { setting.progress("further causes fitted", done, of); });
     for (LawAccount& set : sets) {
       const auto same = std::find_if(search.accounts.begin(), search.accounts.end(), [&](const LawAccount& a) {
@@ -275,7 +322,7 @@ void look_beside_leader(const LawSetting& setting, LawSearch& search) {
 /// Accounts that are worth a fit of their own: the best and the best of each family.
 std::vector<LawAccount*> leading_accounts(LawSearch& search, const std::set<int>& done) {
   const double best = search.accounts.front().log_weight, over = std::max(0.0, best - search.none.log_evidence);
-  const double near = best - std::max(kNear, kNearShare * over);
+  const double near = worth_a_fit(search);
   const double near_family = best - std::max(kNearFamily, kFamilyShareOf * over);
   const auto candidate_of = [&](const LawAccount& account) {
     return search.entries[static_cast<std::size_t>(account.members.front())].candidate;
@@ -317,13 +364,6 @@ bool is_model_error(const LawSetting& setting, const LawEntry& entry) {
                      [&](const Condition& condition) { return entry.candidate->acts_in(condition); });
 }
 
-double left_of_change(const LawAccount& account) {
-  double left = 0.0;
-  for (Index c = kFirstContrast; c < account.evidence.tau.size(); ++c)
-    left = std::max(left, kUnitOfClasses * account.evidence.tau[c]);
-  return left > 0.0 ? left / std::hypot(left, account.effect) : 0.0;
-}
-
 const LawAccount& account_to_take(const std::vector<const LawAccount*>& possible) {
   const auto before = [](const LawAccount* a, const LawAccount* b) {
     return a->scored != b->scored ? a->scored : a->members.size() < b->members.size();
@@ -333,28 +373,41 @@ const LawAccount& account_to_take(const std::vector<const LawAccount*>& possible
 
 namespace {
 
-/// No cause, and "something else" in each contrast, as they are held against the causes: with modes of their own opened.
+/// No cause, and at most one contrast's class, at a fit without causes of the catalogue.
+LawAccount weigh_without(const LawSetting& setting, LawSystem system, const std::vector<ActiveClass>& contrast,
+                         const VectorXd& tau, const Fit& with) {
+  system.signatures.resize(system.residual.size(), 0);
+  LawAccount account;
+  account.hypothesis = {system.residual, VectorXd::Zero(1), system.signatures, {}, {}, lasting_classes(system)};
+  account.hypothesis.active.insert(account.hypothesis.active.end(), contrast.begin(), contrast.end());
+  auto held = std::make_shared<LawSystem>(std::move(system));
+  OpenedEvidence opened = scored_with_openings(setting.plain, *held, account.hypothesis, tau);
+  account.evidence = std::move(opened.evidence);
+  account.opened = std::move(opened.opened);
+  account.log_weight = account.evidence.log_evidence;
+  account.system = std::move(held);
+  account.with = with;
+  account.scored = account.evidence.weight.size() > 0;
+  return account;
+}
+
+/// No cause, and "something else" in each contrast, as they are held against the causes: with modes of their own opened, and
+/// fitted under their own scales.
 void weigh_nothing(const LawSetting& setting, LawSearch& search) {
-  const LawSystem bare{search.system.sigma, search.system.classes, search.system.residual, {}, search.system.log_prior};
-  const LawHypothesis none{bare.residual, VectorXd::Zero(1), MatrixXd(bare.residual.size(), 0), {}, {}, lasting_classes(bare)};
-  const auto weigh = [&](const LawHypothesis& hypothesis, const VectorXd& tau) {
-    LawAccount account;
-    auto system = std::make_shared<LawSystem>(bare);
-    OpenedEvidence opened = scored_with_openings(setting.plain, *system, hypothesis, tau);
-    account.hypothesis = hypothesis;
-    account.evidence = std::move(opened.evidence);
-    account.opened = std::move(opened.opened);
-    account.log_weight = account.evidence.log_evidence;
-    account.system = std::move(system);
-    account.scored = true;
-    return account;
+  const auto weigh = [&](const std::vector<ActiveClass>& contrast, const VectorXd& tau) {
+    LawAccount account = weigh_without(setting, search.system, contrast, tau, search.base);
+    const Fit own = account.scored ? fit_by_own_scales(setting, account) : Fit{};
+    if (!account.scored || !own.made()) return account;
+    LawSystem system = law_system(setting.plain, own, setting.contrasts);
+    if (!can_be_weighed(system)) return account;
+    LawAccount anew = weigh_without(setting, std::move(system), contrast, account.evidence.tau, own);
+    return anew.scored ? anew : account;
   };
-  search.nothing = weigh(none, search.none.tau);
+  search.nothing = weigh({}, search.none.tau);
   parallel_for(search.else_weight.size(), [&](std::size_t c) {
-    LawHypothesis other = none;
-    other.active.push_back({kFirstContrast + static_cast<int>(c), 1.0});
     const double prior = search.else_weight[c] - search.something_else[c].log_evidence;
-    search.else_weight[c] = prior + weigh(other, search.something_else[c].tau).log_weight;
+    search.else_weight[c] =
+        prior + weigh({{kFirstContrast + static_cast<int>(c), 1.0}}, search.something_else[c].tau).log_weight;
   });
 }
 
@@ -388,7 +441,7 @@ LawSearch search_by_law(const LawSetting& setting, const Fit& base) {
     // What no fit and no scales can be found for is no account.
     std::erase_if(out.accounts, [&](const LawAccount& a) { return done.contains(a.members.front()) && !a.scored; });
     if (out.accounts.empty()) return out;
-    sort_accounts(out.accounts);
+    settle_leaders(setting, out);
   }
   std::vector<LawAccount> sets;
   add_sets(
@@ -400,11 +453,11 @@ LawSearch search_by_law(const LawSetting& setting, const Fit& base) {
       },
       setting.progress, sets);
   for (LawAccount& account : sets) out.accounts.push_back(std::move(account));
-  sort_accounts(out.accounts);
+  settle_leaders(setting, out);
   look_beside_leader(setting, out);
   fit_alone_from_sets(setting, out);
   sort_accounts(out.accounts);
-  fit_without_opened(setting, out);
+  settle_leaders(setting, out);
   return out;
 }
 

@@ -48,6 +48,7 @@ struct LawAccount {
   Eigen::VectorXd across;  ///< of one cause that is a factor: coordinates of the best magnitude on the other side of one
   double effect = 0.0;     ///< RMS change of frequencies, ln
   bool scored = false;     ///< at the mode of its own scales
+  bool settled = false;    ///< fitted under its own scales
   Fit with;                ///< the fit with the causes in the model, made() if refined
   std::shared_ptr<const LawSystem> system;
   std::vector<int> opened;  ///< measured modes that are none of the model's by its evidence
@@ -67,12 +68,6 @@ struct LawSearch {
   /// Those of causes that act in all states alike, where the question is what changed between states: errors of the model.
   std::vector<LawAccount> model_errors;
 };
-
-/// Most that an account may leave of what changed, RMS: with more it explains less than three quarters of the variance.
-constexpr double kMostLeft = 0.5;
-/// What an account leaves over in the frequencies, RMS, as a part of that and its effect together: the largest of its
-/// contrasts.
-[[nodiscard]] double left_of_change(const LawAccount& account);
 
 /// Of accounts that may each be the answer (not empty) the one that is put into the model: what the smallest can do without is
 /// no part of the answer. One that the screen alone has weighed has no fit, and comes last.
