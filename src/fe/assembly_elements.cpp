@@ -1,7 +1,10 @@
 #include "fe/assembly_elements.hpp"
 
+#include <algorithm>
+#include <set>
+
 #include "core/error.hpp"
-#include "fe/assembly_drilling.hpp"
+#include "fe/shell_quad.hpp"
 
 namespace twindeck::fe {
 
@@ -9,11 +12,32 @@ namespace {
 
 const Eigen::Vector3d& position(const Model& model, int node) { return model.nodes[static_cast<std::size_t>(node)].x_m; }
 
+/// The places of an element's nodes, as its geometry.
+template <typename Geometry>
+Geometry corners_of(const Model& model, const Element& element) {
+  Geometry geometry;
+  TWINDECK_ASSERT(element.nodes.size() == geometry.node_m.size());
+  for (std::size_t i = 0; i < element.nodes.size(); ++i) geometry.node_m[i] = position(model, element.nodes[i]);
+  return geometry;
+}
+
 std::vector<int> dofs_per_node(const Element& element, int count) {
   std::vector<int> dofs;
   for (const int node : element.nodes)
     for (int d = 0; d < count; ++d) dofs.push_back(6 * node + d);
   return dofs;
+}
+
+BeamStiffnessProperties properties_with(const Model& model, const Material& m, const Section& s) {
+  const double shear = model.formulation.shear_flexible ? 1.0 : 0.0;
+  return {m.youngs_modulus_Pa,      m.shear_modulus_Pa, s.area_m2,    s.inertia_y_m4,
+          s.inertia_z_m4,           s.inertia_yz_m4,    s.torsion_m4, shear * s.shear_area_y_m2,
+          shear * s.shear_area_z_m2};
+}
+
+SolidProperties solid_properties(const Model& model, const Element& element) {
+  const Material& m = material_of(model, element);
+  return {m.youngs_modulus_Pa, m.poisson_ratio};
 }
 
 }  // namespace
@@ -35,17 +59,6 @@ BeamGeometry beam_geometry(const Model& model, const Element& element) {
   return {end_nodes(model, element), element.offset_m, element.orientation, element.releases};
 }
 
-namespace {
-
-BeamStiffnessProperties properties_with(const Model& model, const Material& m, const Section& s) {
-  const double shear = model.formulation.shear_flexible ? 1.0 : 0.0;
-  return {m.youngs_modulus_Pa,      m.shear_modulus_Pa, s.area_m2,    s.inertia_y_m4,
-          s.inertia_z_m4,           s.inertia_yz_m4,    s.torsion_m4, shear * s.shear_area_y_m2,
-          shear * s.shear_area_z_m2};
-}
-
-}  // namespace
-
 BeamStiffnessProperties beam_properties(const Model& model, const Element& element) {
   return properties_with(model, material_of(model, element), section_of(model, element));
 }
@@ -57,18 +70,10 @@ TaperedProperties beam_end_properties(const Model& model, const Element& element
           properties_with(model, material_of(model, element), model.sections[static_cast<std::size_t>(element.section2)])};
 }
 
-ShellGeometry shell_geometry(const Model& model, const Element& element) {
-  TWINDECK_ASSERT(element.nodes.size() == 4);
-  ShellGeometry geometry;
-  for (std::size_t i = 0; i < 4; ++i) geometry.node_m[i] = position(model, element.nodes[i]);
-  return geometry;
-}
+ShellGeometry shell_geometry(const Model& model, const Element& element) { return corners_of<ShellGeometry>(model, element); }
 
 TriangleGeometry triangle_geometry(const Model& model, const Element& element) {
-  TWINDECK_ASSERT(element.nodes.size() == 3);
-  TriangleGeometry geometry;
-  for (std::size_t i = 0; i < 3; ++i) geometry.node_m[i] = position(model, element.nodes[i]);
-  return geometry;
+  return corners_of<TriangleGeometry>(model, element);
 }
 
 ShellProperties shell_properties(const Model& model, const Element& element) {
@@ -86,10 +91,9 @@ Eigen::MatrixXd shell_membrane_of(const Model& model, const Element& element, st
   }
   const ShellGeometry geometry = shell_geometry(model, element);
   const double factor = model.formulation.drilling_factor;
-  if (model.formulation.drilling == Formulation::Drilling::penalty)
-    return shell_membrane_stiffness(geometry, properties, DrillingRule::penalty, factor);
-  return shell_membrane_stiffness(geometry, properties, DrillingRule::diagonal, factor) +
-         drilling_spread(geometry, properties, factor);
+  const Matrix24 k = shell_membrane_stiffness(geometry, properties, model.formulation.drilling, factor);
+  if (model.formulation.drilling == DrillingRule::penalty) return k;
+  return k + drilling_spread(geometry, properties, factor);
 }
 
 Eigen::MatrixXd shell_bending_of(const Model& model, const Element& element) {
@@ -98,17 +102,10 @@ Eigen::MatrixXd shell_bending_of(const Model& model, const Element& element) {
   return shell_bending_stiffness(shell_geometry(model, element), properties);
 }
 
-SolidGeometry solid_geometry(const Model& model, const Element& element) {
-  SolidGeometry geometry;
-  for (std::size_t i = 0; i < 8; ++i) geometry.node_m[i] = position(model, element.nodes[i]);
-  return geometry;
-}
+SolidGeometry solid_geometry(const Model& model, const Element& element) { return corners_of<SolidGeometry>(model, element); }
 
 TetrahedronGeometry tetrahedron_geometry(const Model& model, const Element& element) {
-  TWINDECK_ASSERT(is_tetrahedron(element));
-  TetrahedronGeometry geometry;
-  for (std::size_t i = 0; i < 4; ++i) geometry.node_m[i] = position(model, element.nodes[i]);
-  return geometry;
+  return corners_of<TetrahedronGeometry>(model, element);
 }
 
 QuadraticSolid quadratic_solid(const Model& model, const Element& element) {
@@ -116,15 +113,6 @@ QuadraticSolid quadratic_solid(const Model& model, const Element& element) {
   for (const int node : element.nodes) solid.node_m.push_back(position(model, node));
   return solid;
 }
-
-namespace {
-
-SolidProperties solid_properties(const Model& model, const Element& element) {
-  const Material& m = material_of(model, element);
-  return {m.youngs_modulus_Pa, m.poisson_ratio};
-}
-
-}  // namespace
 
 Eigen::MatrixXd solid_stiffness_of(const Model& model, const Element& element) {
   const SolidProperties properties = solid_properties(model, element);
@@ -210,20 +198,21 @@ ElementMatrix element_mass(const Model& model, const Element& element) {
 
 bool carries_stiffness(const Spring& spring) { return spring.active && !spring.series && spring.stiffness != 0.0; }
 
-ElementMatrix spring_stiffness(const Spring& spring) {
-  ElementMatrix k;
+Elongation elongation_of(const Spring& spring) {
+  Elongation e;
   const int first = spring.rotation ? 3 : 0;
   const Eigen::Vector3d d = spring.direction.normalized();
-  const bool two = spring.node2 >= 0;
-  Eigen::VectorXd b(two ? 6 : 3);
-  b.head<3>() = d;
-  for (int i = 0; i < 3; ++i) k.dofs.push_back(6 * spring.node + first + i);
-  if (two) {
-    b.tail<3>() = -d;
-    for (int i = 0; i < 3; ++i) k.dofs.push_back(6 * spring.node2 + first + i);
-  }
-  k.matrix = spring.stiffness * b * b.transpose();
-  return k;
+  e.coefficient.resize(spring.node2 >= 0 ? 6 : 3);
+  e.coefficient.head<3>() = d;
+  if (spring.node2 >= 0) e.coefficient.tail<3>() = -d;
+  for (const int node : {spring.node, spring.node2})
+    for (int i = 0; node >= 0 && i < 3; ++i) e.dofs.push_back(6 * node + first + i);
+  return e;
+}
+
+ElementMatrix spring_stiffness(const Spring& spring) {
+  const Elongation e = elongation_of(spring);
+  return {e.dofs, spring.stiffness * e.coefficient * e.coefficient.transpose()};
 }
 
 ElementMatrix point_mass(const PointMass& mass) {
@@ -233,6 +222,23 @@ ElementMatrix point_mass(const PointMass& mass) {
   for (int d = 0; d < 6; ++d) m.dofs.push_back(6 * mass.node + d);
   m.matrix = diagonal.asDiagonal();
   return m;
+}
+
+std::vector<std::uint8_t> sides_beside_four_nodes(const Model& model) {
+  std::vector<std::uint8_t> straight(model.elements.size(), 0);
+  if (std::none_of(model.elements.begin(), model.elements.end(), is_triangle)) return straight;
+  const auto side = [](const Element& e, std::size_t i) {
+    return std::minmax({e.nodes[i], e.nodes[(i + 1) % e.nodes.size()]});
+  };
+  std::set<std::pair<int, int>> of_four;
+  for (const Element& e : model.elements)
+    for (std::size_t i = 0; e.type == ElementType::shell && e.nodes.size() == 4 && i < 4; ++i) of_four.insert(side(e, i));
+  for (std::size_t k = 0; k < straight.size(); ++k) {
+    const Element& e = model.elements[k];
+    for (std::size_t i = 0; is_triangle(e) && i < 3; ++i)
+      if (of_four.contains(side(e, i))) straight[k] = static_cast<std::uint8_t>(straight[k] | (1U << i));
+  }
+  return straight;
 }
 
 }  // namespace twindeck::fe

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <cstdint>
 #include <vector>
 
 #include "fe/beam_tapered.hpp"
@@ -58,7 +59,7 @@ struct ElementMatrix {
 [[nodiscard]] Eigen::MatrixXd solid_mass_of(const Model& model, const Element& element);
 /// Membrane part of a shell of three or four nodes, the drilling of the formulation's rule included (spread over the corners
 /// where the rule is diagonal); bending part. Over its six degrees of freedom a node.
-/// @param straight_sides  of this element, from sides_beside_four_nodes (mixed_sides.hpp); used for triangles only
+/// @param straight_sides  of this element, from sides_beside_four_nodes; used for triangles only
 [[nodiscard]] Eigen::MatrixXd shell_membrane_of(const Model& model, const Element& element, std::uint8_t straight_sides);
 [[nodiscard]] Eigen::MatrixXd shell_bending_of(const Model& model, const Element& element);
 [[nodiscard]] std::array<Eigen::Vector3d, 2> end_nodes(const Model& model, const Element& element);
@@ -73,7 +74,13 @@ struct ElementMatrix {
 
 /// Mass of an element of any type, consistent or lumped as the formulation says. Stays always have half of it at each end.
 [[nodiscard]] ElementMatrix element_mass(const Model& model, const Element& element);
-/// Stiffness k d d' of a spring; rotations where it acts on them.
+/// Displacement e = d·(u₁ - u₂) of a spring as coefficients of its degrees of freedom; rotations where it acts on them.
+struct Elongation {
+  std::vector<int> dofs;
+  Eigen::VectorXd coefficient;
+};
+[[nodiscard]] Elongation elongation_of(const Spring& spring);
+/// Stiffness k d d' of a spring.
 [[nodiscard]] ElementMatrix spring_stiffness(const Spring& spring);
 /// Mass of a beam of these end sections, of a shell of this mass and rotary inertia per area; consistent or lumped.
 [[nodiscard]] ElementMatrix beam_mass_of(const Model& model, const Element& element, const BeamGeometry& geometry,
@@ -84,5 +91,11 @@ struct ElementMatrix {
 [[nodiscard]] ElementMatrix point_mass(const PointMass& mass);
 /// Whether a spring is part of K: it is active and not in series with a dashpot, which cannot carry a steady force.
 [[nodiscard]] bool carries_stiffness(const Spring& spring);
+
+/// Sides of three-node shells that a four-node shell has too. A triangle's sides bend with the rotations of their ends, those
+/// of a four-node shell stay straight; on a common side the triangle's has to stay straight as well, or the mesh would not pass
+/// the patch test of constant membrane stress (triangle.hpp).
+/// @return (n_elements) bit i set: the side from the element's node i to the next; 0 for all but triangles
+[[nodiscard]] std::vector<std::uint8_t> sides_beside_four_nodes(const Model& model);
 
 }  // namespace twindeck::fe

@@ -13,15 +13,11 @@ bool names(const Parameter& parameter, const std::string& name) {
   return std::find(parameter.of.begin(), parameter.of.end(), name) != parameter.of.end();
 }
 
-double of_material(const Model& model, const Parameter& parameter, double Material::*value) {
-  for (const Material& material : model.materials)
-    if (names(parameter, material.name)) return material.*value;
-  return parameter.initial;
-}
-
-double of_section(const Model& model, const Parameter& parameter, double Section::*value) {
-  for (const Section& section : model.sections)
-    if (names(parameter, section.name)) return section.*value;
+/// That of the first part which the parameter names.
+template <typename Part>
+double value_of(const std::vector<Part>& parts, const Parameter& parameter, double Part::*value) {
+  for (const Part& part : parts)
+    if (names(parameter, part.name)) return part.*value;
   return parameter.initial;
 }
 
@@ -30,15 +26,15 @@ double of_section(const Model& model, const Parameter& parameter, double Section
 double standing_value(const Model& model, const Parameter& parameter) {
   switch (parameter.target) {
     case Target::youngs_modulus:
-      return of_material(model, parameter, &Material::youngs_modulus_Pa);
+      return value_of(model.materials, parameter, &Material::youngs_modulus_Pa);
     case Target::density:
-      return of_material(model, parameter, &Material::density_kg_m3);
+      return value_of(model.materials, parameter, &Material::density_kg_m3);
     case Target::thickness:
-      return of_section(model, parameter, &Section::thickness_m);
+      return value_of(model.sections, parameter, &Section::thickness_m);
     case Target::bending_inertia_ratio:
-      return of_section(model, parameter, &Section::bending_inertia_ratio);
+      return value_of(model.sections, parameter, &Section::bending_inertia_ratio);
     case Target::area:
-      return of_section(model, parameter, &Section::area_m2);
+      return value_of(model.sections, parameter, &Section::area_m2);
     case Target::spring_stiffness:
     case Target::point_mass:
     case Target::matrix_stiffness:

@@ -32,4 +32,15 @@ struct BeamStiffnessProperties {
 [[nodiscard]] double beam_axial_force(const BeamGeometry& geometry, const BeamStiffnessProperties& properties,
                                       const Vector12& u);
 
+/// Consistent mass on the shapes of the stiffness (Przemieniecki 1968, section 11.4; cubics for an Euler beam), SI.
+/// `rotary_inertia` adds ρ ∫ ψᵀ I ψ dx of the section's tilt; the polar inertia ρ (Iy + Iz) of twist is always included.
+[[nodiscard]] Matrix12 beam_mass(const BeamGeometry& geometry, const BeamStiffnessProperties& properties, double density_kg_m3,
+                                 bool rotary_inertia);
+/// Half of the mass at each end, and half of the section's rotary inertia (about its axis always, across it if asked for).
+[[nodiscard]] Matrix12 beam_mass_lumped(const BeamGeometry& geometry, const BeamStiffnessProperties& properties,
+                                        double density_kg_m3, bool rotary_inertia);
+
+/// Geometric stiffness of an axial force N (tension positive), N ∫ w'ᵀ w' dx with cubic shape functions (no Wagner twist term).
+[[nodiscard]] Matrix12 beam_geometric_stiffness(const BeamGeometry& geometry, double axial_force_N);
+
 }  // namespace twindeck::fe

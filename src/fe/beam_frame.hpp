@@ -36,6 +36,14 @@ using Matrix2x12 = Eigen::Matrix<double, 2, 12>;
 /// @param stiffness  local stiffness (12 × 12);  @param releases  bit i = local end displacement i carries no force
 [[nodiscard]] Matrix12 release_transformation(const Matrix12& stiffness, std::uint16_t releases);
 
+/// A spring of stiffness c between two displacements.
+inline void add_spring(Matrix12& k, int a, int b, double c) {
+  k(a, a) += c;
+  k(b, b) += c;
+  k(a, b) -= c;
+  k(b, a) -= c;
+}
+
 /// Deflection and slope at ξ = x/L as (2 × 12) functions of the local end displacements, exact for end loads (static):
 ///   w(ξ) = (1-ξ) w₁ + ξ w₂ + L/2 (ξ-ξ²)(ψ₁-ψ₂) + L (ξ-3ξ²+2ξ³)(1+Φ)⁻¹ q,   q = (ψ₁+ψ₂)/2 - (w₂-w₁)/L,
 /// which are the Hermite cubics when Φ = 0; ψ(ξ) = dw/dx - γ with the constant shear strain γ = ((1+Φ)⁻¹ - 1) q.

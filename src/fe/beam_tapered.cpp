@@ -34,13 +34,6 @@ double skewness(const BeamStiffnessProperties& p) {
   return product > 0.0 ? p.inertia_yz_m4 / std::sqrt(product) : 0.0;
 }
 
-void add_spring(Matrix12& k, int a, int b, double c) {
-  k(a, a) += c;
-  k(b, b) += c;
-  k(a, b) -= c;
-  k(b, a) -= c;
-}
-
 /// Stiffness of ∫ dx/(E A) or ∫ dx/(G J), zero for a section without.
 double in_series(double sum) { return std::isfinite(sum) && sum > 0.0 ? 1.0 / sum : 0.0; }
 
@@ -89,8 +82,8 @@ Matrix12 local_stiffness(const TaperedProperties& p, double length_m) {
     k = inverse_form(flexibility, tip);
     k = (0.5 * (k + k.transpose())).eval();
   }
-  add_spring(k, 0, 6, in_series(axial));
-  add_spring(k, 3, 9, in_series(twist));
+  beam::add_spring(k, 0, 6, in_series(axial));
+  beam::add_spring(k, 3, 9, in_series(twist));
   return k;
 }
 

@@ -2,6 +2,7 @@
 
 #include <Eigen/Dense>
 #include <Eigen/Eigenvalues>
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -36,6 +37,18 @@ std::vector<Vector3d> hanging(const Model& model, const Element& stay, double fo
     const double xi = static_cast<double>(i) / pieces;
     nodes.emplace_back(ends[0] + xi * (ends[1] - ends[0]) - 4.0 * sag * xi * (1.0 - xi) * Vector3d::UnitZ());
   }
+  return nodes;
+}
+
+/// Nodes of one chain, ends included; adds those between.
+std::vector<int> hang(Model& model, const Element& stay, double pull_N, int pieces, long& next_id) {
+  const std::vector<Vector3d> x_m = hanging(model, stay, pull_N, pieces);
+  std::vector<int> nodes = {stay.nodes[0]};
+  for (std::size_t k = 1; k + 1 < x_m.size(); ++k) {
+    nodes.push_back(static_cast<int>(model.nodes.size()));
+    model.nodes.push_back({next_id++, x_m[k]});
+  }
+  nodes.push_back(stay.nodes[1]);
   return nodes;
 }
 
@@ -120,6 +133,76 @@ double force_of_harmonics(const Model& model, const Element& stay, const std::ve
     (misfit(a) < misfit(b) ? high : low) = misfit(a) < misfit(b) ? b : a;
   }
   return std::exp(0.5 * (low + high));
+}
+
+std::string stay_name(const Element& stay) { return stay.name.empty() ? std::to_string(stay.id) : stay.name; }
+
+Model with_swinging_stays(Model model, const std::vector<SwingingStay>& stays, int pieces) {
+  constexpr long million = 1000000;
+  long id = 0;
+  for (const Node& node : model.nodes) id = std::max(id, node.id);
+  id = (id / million + 1) * million;
+  for (const SwingingStay& swinging : stays) {
+    TWINDECK_ASSERT(swinging.element >= 0 && swinging.element < std::ssize(model.elements));
+    const Element stay = model.elements[static_cast<std::size_t>(swinging.element)];
+    const Cable cable = cable_beyond_bar(model, stay, swinging.force_N, pieces);
+    MatrixElement element;
+    element.name = "cable_" + stay_name(stay);
+    element.group = "cables";
+    std::vector<int> nodes = stay.nodes;
+    for (const Eigen::Vector3d& x : cable.inner_x_m) {
+      nodes.push_back(static_cast<int>(model.nodes.size()));
+      model.nodes.push_back({id++, x});
+    }
+    for (const int node : nodes)
+      for (int d = 0; d < 3; ++d) element.dofs.push_back({node, d});
+    element.stiffness = cable.stiffness;
+    element.mass = cable.mass;
+    model.matrix_elements.push_back(std::move(element));
+  }
+  return model;
+}
+
+StayChains with_stay_chains(const Model& model, const PrestressState& state, int pieces,
+                            const std::vector<std::string>& names) {
+  TWINDECK_ASSERT(pieces >= 2 && state.stay_pull_N.size() == std::ssize(model.elements));
+  StayChains out{model, state, {}};
+  long node_id = 0, element_id = 0;
+  for (const Node& node : model.nodes) node_id = std::max(node_id, node.id + 1);
+  for (const Element& element : model.elements) element_id = std::max(element_id, element.id + 1);
+  std::vector<Element> added;
+  std::vector<double> pull_of_added;
+  for (std::size_t i = 0; i < model.elements.size(); ++i) {
+    const Element& stay = model.elements[i];
+    if (stay.type != ElementType::stay || std::find(names.begin(), names.end(), stay.name) == names.end()) continue;
+    const double pull = state.stay_pull_N[static_cast<Eigen::Index>(i)];
+    if (pull <= 0.0)
+      throw InputError({model.source, 0, stay.name}, "has no pull, a chain of it would not hang", "give the model a prestress");
+    const std::vector<int> nodes = hang(out.model, stay, pull, pieces, node_id);
+    out.nodes[stay.name] = nodes;
+    out.model.elements[i].nodes = {nodes[0], nodes[1]};
+    for (std::size_t k = 1; k + 1 < nodes.size(); ++k) {
+      Element piece = stay;
+      piece.id = element_id++;
+      piece.name = stay.name + "." + std::to_string(k + 1);
+      piece.nodes = {nodes[k], nodes[k + 1]};
+      added.push_back(piece);
+      pull_of_added.push_back(pull);
+    }
+  }
+  for (const std::string& name : names) {
+    if (!out.nodes.contains(name))
+      throw InputError({model.source, 0, "stays"}, "'" + name + "' is no stay of the model", "name stays such as NE8");
+  }
+  const Eigen::Index n_before = state.stay_pull_N.size(), n_added = std::ssize(added);
+  out.model.elements.insert(out.model.elements.end(), added.begin(), added.end());
+  out.state.stay_pull_N.conservativeResize(n_before + n_added);
+  out.state.axial_force_N.conservativeResize(n_before + n_added);
+  for (Eigen::Index k = 0; k < n_added; ++k) {
+    out.state.stay_pull_N[n_before + k] = pull_of_added[static_cast<std::size_t>(k)];
+    out.state.axial_force_N[n_before + k] = 0.0;
+  }
+  return out;
 }
 
 }  // namespace twindeck::fe

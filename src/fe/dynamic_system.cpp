@@ -24,24 +24,6 @@ void add(Triplets& sum, const std::vector<int>& at, const Eigen::Ref<const Eigen
     }
 }
 
-/// Displacement e = d·(u₁ - u₂) as coefficients of the spring's degrees of freedom.
-struct Elongation {
-  std::vector<int> dofs;
-  Eigen::VectorXd coefficient;
-};
-
-Elongation elongation_of(const Spring& spring) {
-  Elongation e;
-  const int first = spring.rotation ? 3 : 0;
-  const Eigen::Vector3d d = spring.direction.normalized();
-  e.coefficient.resize(spring.node2 >= 0 ? 6 : 3);
-  e.coefficient.head<3>() = d;
-  if (spring.node2 >= 0) e.coefficient.tail<3>() = -d;
-  for (const int node : {spring.node, spring.node2})
-    for (int i = 0; node >= 0 && i < 3; ++i) e.dofs.push_back(6 * node + first + i);
-  return e;
-}
-
 void add_springs(const Model& model, int& next, Sums& sums, std::vector<std::string>& own) {
   for (const Spring& spring : model.springs) {
     if (!spring.active || spring.damping == 0.0) continue;

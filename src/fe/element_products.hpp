@@ -3,7 +3,7 @@
 #include <Eigen/Core>
 
 #include "fe/shell_triangle.hpp"
-#include "fe/triangle_corners.hpp"
+#include "fe/triangle.hpp"
 
 /// The products that element matrices are made of. They are compiled once, in element_products.cpp: each size of a product of
 /// matrices takes the compiler about a third of a second in every source that writes it out.

@@ -5,13 +5,12 @@
 #include <algorithm>
 #include <cmath>
 
-#include "fe/assembly_drilling.hpp"
 #include "fe/assembly_elements.hpp"
 #include "fe/assembly_pattern.hpp"
 #include "fe/beam_frame.hpp"
 #include "fe/corotational.hpp"
 #include "fe/matrix_element.hpp"
-#include "fe/mixed_sides.hpp"
+#include "fe/shell_quad.hpp"
 #include "fe/static_stage.hpp"
 #include "linalg/cholesky.hpp"
 
@@ -38,18 +37,6 @@ struct Part {
 };
 
 bool is_string(ElementType type) { return type == ElementType::bar || type == ElementType::stay; }
-
-Eigen::MatrixXd shell_stiffness(const Model& model, const Element& e, std::uint8_t straight_sides) {
-  if (is_triangle(e)) return shell_membrane_of(model, e, straight_sides) + shell_bending_of(model, e);
-  const ShellGeometry g = shell_geometry(model, e);
-  const ShellProperties p = shell_properties(model, e);
-  const double factor = model.formulation.drilling_factor;
-  const bool penalty = model.formulation.drilling == Formulation::Drilling::penalty;
-  Matrix24 k = shell_bending_stiffness(g, p) +
-               shell_membrane_stiffness(g, p, penalty ? DrillingRule::penalty : DrillingRule::diagonal, factor);
-  if (!penalty) k += drilling_spread(g, p, factor);
-  return k;
-}
 
 Eigen::MatrixXd solid_stiffness_six(const Model& model, const Element& e) {
   const Eigen::MatrixXd k = solid_stiffness_of(model, e);
@@ -139,7 +126,7 @@ void MovingStructure::add_part(int i, const Eigen::VectorXd& stay_pull_N) {
         e.section2 >= 0 ? Eigen::MatrixXd(tapered_beam_stiffness(g, ends)) : Eigen::MatrixXd(beam_stiffness(g, ends.end1));
   } else if (e.type == ElementType::shell) {
     part.linear.frame = is_triangle(e) ? corotational::Frame::triangle : corotational::Frame::quad;
-    part.linear.stiffness = shell_stiffness(model_, e, straight_sides_[slot(i)]);
+    part.linear.stiffness = shell_bending_of(model_, e) + shell_membrane_of(model_, e, straight_sides_[slot(i)]);
   } else if (e.type == ElementType::solid) {
     const bool hexahedron = e.nodes.size() == 8 || e.nodes.size() == 20;
     part.linear.frame = hexahedron ? corotational::Frame::box : corotational::Frame::corner;

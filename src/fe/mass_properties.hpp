@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <string>
 
 #include "fe/model.hpp"
 
@@ -18,5 +19,10 @@ struct MassProperties {
 /// M = Rᵀ M_e R summed over all parts, R the six rigid motions of a part's nodes: what a consistent mass matrix has exactly.
 /// @pre  a valid model (validate.hpp)
 [[nodiscard]] MassProperties mass_properties(const Model& model);
+
+/// Mass, centre of mass and inertia of an imported model in one line, to be held against what the other program prints:
+/// "mass 275.07 kg, centre of mass at (1, 0, 2.5) m; inertia about it, axes x y z: xx 12, yy …, xy … kg m2". Off the diagonal
+/// stands -∫ x y dm. Where masses act in some directions alone, the mass is given for each.
+[[nodiscard]] std::string mass_words(const MassProperties& properties);
 
 }  // namespace twindeck::fe

@@ -7,7 +7,6 @@
 #include "fe/assembly.hpp"
 #include "fe/assembly_pattern.hpp"
 #include "fe/assembly_terms.hpp"
-#include "fe/dead_load.hpp"
 #include "fe/large_displacement.hpp"
 #include "fe/mechanism.hpp"
 #include "fe/prestress_least_squares.hpp"
@@ -129,15 +128,15 @@ void deform(const Model& model, const std::vector<int>& stays, const Eigen::Matr
   Configuration c = find_equilibrium(model, load, state.stay_pull_N, model.prestress.load_steps);
   double change = 0.0;  // of the pulls in the last round, relative
   for (int round = 0; w.size() > 0 && c.status.converged && round < shape_finding_rounds; ++round) {
-    Eigen::VectorXd pull(std::ssize(stays)), displacement(w.rows());
-    for (std::size_t s = 0; s < stays.size(); ++s) pull[static_cast<Eigen::Index>(s)] = state.stay_pull_N[stays[s]];
+    const Eigen::VectorXd pull = state.stay_pull_N(stays);
+    Eigen::VectorXd displacement(w.rows());
     for (Eigen::Index i = 0; i < w.rows(); ++i) {
       const auto& condition = model.prestress.conditions[static_cast<std::size_t>(i)];
       displacement[i] = c.displacement[6 * condition.node + condition.dof];
     }
     const Eigen::MatrixXd influence = w.rightCols(w.cols() - 1);
     const BoundedLeastSquares found = find_shape(model, stays, influence, displacement - influence * pull, weight_N);
-    for (std::size_t s = 0; s < stays.size(); ++s) state.stay_pull_N[stays[s]] = found.x[static_cast<Eigen::Index>(s)];
+    state.stay_pull_N(stays) = found.x;
     state.status = found.status;
     const Configuration last = std::move(c);
     c = find_equilibrium(model, load, state.stay_pull_N, 1, &last);
@@ -221,7 +220,7 @@ PrestressState prestress_of(const Model& base, const DofMap& map, const linalg::
   } else {
     q = factor.solve(map.expansion.transpose() * (load + unit_loads * pull));
   }
-  for (std::size_t s = 0; s < stays.size(); ++s) state.stay_pull_N[stays[s]] = pull[static_cast<Eigen::Index>(s)];
+  state.stay_pull_N(stays) = pull;
 
   // 3. The state that they make.
   const Eigen::VectorXd total = shape_finding ? Eigen::VectorXd(q.col(0) + q.rightCols(q.cols() - 1) * pull) : q.col(0);

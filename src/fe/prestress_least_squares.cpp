@@ -14,7 +14,7 @@ Eigen::VectorXd solve_free(const Eigen::MatrixXd& a, const Eigen::VectorXd& b, c
     if (is_free[i]) columns.push_back(static_cast<Eigen::Index>(i));
   const Eigen::VectorXd z = a(Eigen::indexing::all, columns).colPivHouseholderQr().solve(b);
   Eigen::VectorXd x = Eigen::VectorXd::Zero(a.cols());
-  for (std::size_t i = 0; i < columns.size(); ++i) x[columns[i]] = z[static_cast<Eigen::Index>(i)];
+  x(columns) = z;
   return x;
 }
 

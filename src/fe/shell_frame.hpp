@@ -1,9 +1,9 @@
 #pragma once
 
-#include "fe/shell_membrane.hpp"
+#include "fe/shell_quad.hpp"
 
-/// The mean plane of the four-node shell and the bilinear map on this plane. The membrane, bending and mass matrices all use
-/// them.
+/// The mean plane of the four-node shell and the bilinear map on this plane, and what three- and four-node shells share. The
+/// membrane, bending and mass matrices all use them.
 namespace twindeck::fe::shell {
 
 /// Mean plane of a quadrilateral. It contains the mean of the nodes and is parallel to both diagonals. The distances of the
@@ -40,5 +40,74 @@ struct Bilinear {
 /// Signs of the corners: (ξ_i, η_i) = (-1,-1), (1,-1), (1,1), (-1,1).
 inline constexpr std::array<double, 4> kXi = {-1.0, 1.0, 1.0, -1.0};
 inline constexpr std::array<double, 4> kEta = {-1.0, -1.0, 1.0, 1.0};
+
+template <int rows, int columns>
+using Matrix = Eigen::Matrix<double, rows, columns>;
+
+/// Discrete-Kirchhoff rotation of the normal of a plate of n corners, β = (βx, βy), u = z βx, v = z βy: at the corners, where
+/// βx = ry, βy = -rx, then at the middles of the sides 0-1, 1-2, … Columns w rx ry of the corners. At the middle of side i-j
+/// (tangent s, length l) the normal component of β is linear along the side, and the tangential one satisfies Kirchhoff,
+/// β_s = -dw/ds, for the cubic w of the side:  β_s = -3/(2l) (w_j - w_i) - ¼ (β_si + β_sj).
+template <std::size_t n>
+[[nodiscard]] auto plate_rotations(const std::array<Eigen::Vector2d, n>& corner_m) {
+  constexpr int columns = 3 * static_cast<int>(n);
+  std::array<Matrix<2, columns>, 2 * n> beta;
+  for (std::size_t i = 0; i < n; ++i) {
+    const auto w = static_cast<Eigen::Index>(3 * i);
+    beta[i].setZero();
+    beta[i](0, w + 2) = 1.0;
+    beta[i](1, w + 1) = -1.0;
+  }
+  for (std::size_t i = 0; i < n; ++i) {
+    const std::size_t j = (i + 1) % n;
+    const Eigen::Vector2d side = corner_m[j] - corner_m[i];
+    const double length = side.norm();
+    const Eigen::Vector2d s = side / length;
+    const Matrix<2, columns> sum = beta[i] + beta[j];
+    Matrix<1, columns> rise = Matrix<1, columns>::Zero();
+    rise(static_cast<Eigen::Index>(3 * j)) = 1.0;
+    rise(static_cast<Eigen::Index>(3 * i)) = -1.0;
+    beta[n + i] = 0.5 * sum - s * (1.5 / length * rise + 0.75 * s.transpose() * sum);
+  }
+  return beta;
+}
+
+/// Curvatures xx, yy, 2xy where the functions of corners and middles have these gradients.
+template <int columns, std::size_t functions>
+[[nodiscard]] Matrix<3, columns> curvature_of(const std::array<Matrix<2, columns>, functions>& beta,
+                                              const Matrix<2, static_cast<int>(functions)>& gradient) {
+  Matrix<3, columns> curvature = Matrix<3, columns>::Zero();
+  for (std::size_t n = 0; n < functions; ++n) {
+    const auto slope = gradient.col(static_cast<Eigen::Index>(n));
+    curvature.row(0) += slope.x() * beta[n].row(0);
+    curvature.row(1) += slope.y() * beta[n].row(1);
+    curvature.row(2) += slope.y() * beta[n].row(0) + slope.x() * beta[n].row(1);
+  }
+  return curvature;
+}
+
+/// A matrix over three of the six displacements of each corner, in their places among the six.
+template <int size>
+[[nodiscard]] Matrix<2 * size, 2 * size> placed(const Matrix<size, size>& flat, const std::array<int, 3>& places) {
+  const auto at = [&](int i) { return 6 * (i / 3) + places[static_cast<std::size_t>(i % 3)]; };
+  Matrix<2 * size, 2 * size> local = Matrix<2 * size, 2 * size>::Zero();
+  for (int i = 0; i < size; ++i)
+    for (int j = 0; j < size; ++j) local(at(i), at(j)) = flat(i, j);
+  return local;
+}
+
+/// A scalar matrix over the corners as that of translations (times `translation`) and of rotations about axes across the normal
+/// (times `rotation`).
+template <int n>
+[[nodiscard]] Matrix<6 * n, 6 * n> at_corners(const Matrix<n, n>& scalar, double translation, double rotation = 0.0,
+                                              const Eigen::Matrix3d& across = Eigen::Matrix3d::Zero()) {
+  Matrix<6 * n, 6 * n> m = Matrix<6 * n, 6 * n>::Zero();
+  for (int i = 0; i < n; ++i)
+    for (int j = 0; j < n; ++j) {
+      m.template block<3, 3>(6 * i, 6 * j) = translation * scalar(i, j) * Eigen::Matrix3d::Identity();
+      m.template block<3, 3>(6 * i + 3, 6 * j + 3) = rotation * scalar(i, j) * across;
+    }
+  return m;
+}
 
 }  // namespace twindeck::fe::shell

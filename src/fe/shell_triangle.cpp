@@ -7,8 +7,7 @@
 #include "core/error.hpp"
 #include "fe/element_products.hpp"
 #include "fe/shell_frame.hpp"
-#include "fe/triangle_membrane.hpp"
-#include "fe/triangle_plate.hpp"
+#include "fe/triangle.hpp"
 
 namespace twindeck::fe {
 
@@ -40,25 +39,15 @@ TrianglePlane plane_of(const TriangleGeometry& geometry) {
 
 /// Puts three directions of each corner (of local x y z rx ry rz) in their places and turns them to global axes.
 Matrix18 in_space(const TrianglePlane& plane, const triangle::Matrix9& flat, const std::array<int, 3>& directions) {
-  Matrix18 local = Matrix18::Zero(), turn = Matrix18::Zero();
-  for (int i = 0; i < 9; ++i)
-    for (int j = 0; j < 9; ++j)
-      local(6 * (i / 3) + directions[static_cast<std::size_t>(i % 3)],
-            6 * (j / 3) + directions[static_cast<std::size_t>(j % 3)]) = flat(i, j);
+  Matrix18 turn = Matrix18::Zero();
   for (int block = 0; block < 18; block += 3) turn.block<3, 3>(block, block) = plane.axes;
-  return congruence(turn, local);
+  return congruence(turn, shell::placed(flat, directions));
 }
 
 /// Mass with the products of the corners' shapes, ∫ N_i N_j dA (3 × 3).
 Matrix18 mass_of(const TrianglePlane& plane, const Eigen::Matrix3d& products, double mass_per_area, double rotary_per_area) {
   const Eigen::Matrix3d across = Eigen::Matrix3d::Identity() - plane.axes.row(2).transpose() * plane.axes.row(2);
-  Matrix18 m = Matrix18::Zero();
-  for (int i = 0; i < 3; ++i)
-    for (int j = 0; j < 3; ++j) {
-      m.block<3, 3>(6 * i, 6 * j) = mass_per_area * products(i, j) * Eigen::Matrix3d::Identity();
-      m.block<3, 3>(6 * i + 3, 6 * j + 3) = rotary_per_area * products(i, j) * across;
-    }
-  return m;
+  return shell::at_corners(products, mass_per_area, rotary_per_area, across);
 }
 
 }  // namespace
@@ -92,10 +81,7 @@ Matrix18 triangle_geometric_stiffness(const TriangleGeometry& geometry, const Sh
   force << n[0], n[2], n[2], n[1];
   const Eigen::Matrix<double, 2, 3> gradient = triangle::gradients(plane.corner_m);
   const Eigen::Matrix3d slope = triangle::area(plane.corner_m) * gradient.transpose() * force * gradient;
-  Matrix18 k = Matrix18::Zero();
-  for (int i = 0; i < 3; ++i)
-    for (int j = 0; j < 3; ++j) k.block<3, 3>(6 * i, 6 * j).diagonal().setConstant(slope(i, j));
-  return k;
+  return shell::at_corners(slope, 1.0);
 }
 
 Matrix18 triangle_mass(const TriangleGeometry& geometry, double mass_per_area, double rotary_per_area) {

@@ -7,12 +7,12 @@ namespace twindeck::fe {
 using Matrix18 = Eigen::Matrix<double, 18, 18>;
 
 /// Flat three-node shell, the triangle beside the four-node shell of elements.hpp: membrane with drilling rotations
-/// (triangle_membrane.hpp), discrete-Kirchhoff plate bending (triangle_plate.hpp), mass on linear shapes. Nodes anticlockwise
+/// (triangle.hpp), discrete-Kirchhoff plate bending, mass on linear shapes. Nodes anticlockwise
 /// seen from the normal x12 × x13. Matrices are in global axes, x y z rx ry rz of node 1, 2, 3, (18 × 18).
 struct TriangleGeometry {
   std::array<Eigen::Vector3d, 3> node_m;
   std::uint8_t straight_sides =
-      0;  ///< bit i set: the side from node i to the next is a four-node shell's too (mixed_sides.hpp)
+      0;  ///< bit i set: the side from node i to the next is a four-node shell's too (sides_beside_four_nodes)
 };
 
 /// Membrane part, linear in E t. The drilling stiffness is the element's own: the DrillingRule of the four-node shell and its

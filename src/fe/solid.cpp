@@ -174,10 +174,7 @@ MatrixSolid solid_geometric_stiffness(const SolidGeometry& geometry, const Solid
     const Matrix3x8 gradient = t.gradient();
     slope += point.weight * t.determinant * gradient.transpose() * stress_tensor(d * strain) * gradient;
   }
-  MatrixSolid k = MatrixSolid::Zero();
-  for (int i = 0; i < 8; ++i)
-    for (int j = 0; j < 8; ++j) k.block<3, 3>(3 * i, 3 * j).diagonal().setConstant(slope(i, j));
-  return k;
+  return for_three(slope);
 }
 
 MatrixSolid solid_mass(const SolidGeometry& geometry, double density_kg_m3) {
@@ -187,11 +184,7 @@ MatrixSolid solid_mass(const SolidGeometry& geometry, double density_kg_m3) {
     const Trilinear t = trilinear_at(geometry, point.xi);
     scalar += density_kg_m3 * point.weight * t.determinant * t.value * t.value.transpose();
   }
-  MatrixSolid m = MatrixSolid::Zero();
-  for (int i = 0; i < 8; ++i)
-    for (int j = 0; j < 8; ++j)
-      for (int d = 0; d < 3; ++d) m(3 * i + d, 3 * j + d) = scalar(i, j);
-  return m;
+  return for_three(scalar);
 }
 
 MatrixSolid solid_mass_lumped(const SolidGeometry& geometry, double density_kg_m3) {

@@ -175,14 +175,6 @@ Eigen::MatrixXd quadratic_strain(const Matrix3xN& gradient) {
   return b;
 }
 
-/// The same scalar for each of the three displacements of a pair of nodes.
-Eigen::MatrixXd for_three(const Eigen::MatrixXd& scalar) {
-  Eigen::MatrixXd all = Eigen::MatrixXd::Zero(3 * scalar.rows(), 3 * scalar.cols());
-  for (Index i = 0; i < scalar.rows(); ++i)
-    for (Index j = 0; j < scalar.cols(); ++j) all.block<3, 3>(3 * i, 3 * j).diagonal().setConstant(scalar(i, j));
-  return all;
-}
-
 }  // namespace
 
 SolidShape quadratic_solid_shape(const QuadraticSolid& solid) {

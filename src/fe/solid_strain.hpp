@@ -22,6 +22,17 @@ inline Eigen::Matrix<double, 6, 6> elasticity(double nu) {
   return d / ((1.0 + nu) * (1.0 - 2.0 * nu));
 }
 
+/// The same scalar for each of the three displacements of a pair of nodes.
+template <typename Scalar>
+[[nodiscard]] auto for_three(const Scalar& scalar) {
+  constexpr int n = Scalar::RowsAtCompileTime, size = n == Eigen::Dynamic ? Eigen::Dynamic : 3 * n;
+  Eigen::Matrix<double, size, size> all = Eigen::Matrix<double, size, size>::Zero(3 * scalar.rows(), 3 * scalar.cols());
+  for (Eigen::Index i = 0; i < scalar.rows(); ++i)
+    for (Eigen::Index j = 0; j < scalar.cols(); ++j)
+      all.template block<3, 3>(3 * i, 3 * j).diagonal().setConstant(scalar(i, j));
+  return all;
+}
+
 /// The stresses of that order as a symmetric tensor.
 inline Eigen::Matrix3d stress_tensor(const Eigen::Matrix<double, 6, 1>& s) {
   Eigen::Matrix3d tensor;

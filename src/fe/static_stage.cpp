@@ -3,8 +3,8 @@
 #include <fmt/format.h>
 
 #include "core/error.hpp"
-#include "fe/assemble_stiffness.hpp"
 #include "fe/assembly_elements.hpp"
+#include "fe/assembly_plans.hpp"
 
 namespace twindeck::fe {
 
@@ -54,9 +54,17 @@ Eigen::VectorXd straining_displacement(const Model& model, const PrestressState&
   if (!state.strained.empty()) return state.strained[slot(i)];
   const Element& e = element_at(model, i);
   const std::vector<int> dofs = e.type == ElementType::solid ? three_per_node(e) : six_per_node(e);
-  Eigen::VectorXd u(std::ssize(dofs));
-  for (Eigen::Index d = 0; d < u.size(); ++d) u[d] = state.displacement[dofs[static_cast<std::size_t>(d)]];
-  return u - free_displacement(model, e);
+  return state.displacement(dofs) - free_displacement(model, e);
+}
+
+/// Adds M_e e, where e moves every node by the acceleration of gravity.
+void add_weight(const ElementMatrix& mass, const Eigen::Vector3d& gravity_m_s2, Eigen::VectorXd& load) {
+  for (std::size_t j = 0; j < mass.dofs.size(); ++j) {
+    const int direction = mass.dofs[j] % 6;
+    if (direction > 2 || gravity_m_s2[direction] == 0.0) continue;
+    for (std::size_t i = 0; i < mass.dofs.size(); ++i)
+      load[mass.dofs[i]] += gravity_m_s2[direction] * mass.matrix(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j));
+  }
 }
 
 }  // namespace
@@ -117,9 +125,7 @@ Eigen::VectorXd stage_load(const Model& model, const Eigen::VectorXd& movement) 
     add_forces(
         model,
         [&](const TermPlan& plan, int part) -> Eigen::VectorXd {
-          const std::vector<int> dofs = plan.matrix(model, part).dofs;
-          Eigen::VectorXd u(std::ssize(dofs));
-          for (Eigen::Index d = 0; d < u.size(); ++d) u[d] = movement[dofs[static_cast<std::size_t>(d)]];
+          const Eigen::VectorXd u = movement(plan.matrix(model, part).dofs);
           return u.isZero(0.0) ? Eigen::VectorXd() : u;
         },
         reaction);
@@ -135,10 +141,17 @@ Eigen::MatrixXd continuum_geometric_stiffness(const Model& model, const Prestres
   const Eigen::VectorXd u = straining_displacement(model, state, i);
   if (e.type == ElementType::solid) return solid_geometric_stiffness_of(model, e, u);
   if (is_triangle(e)) return triangle_geometric_stiffness(triangle_geometry(model, e), shell_properties(model, e), u);
-  const bool penalty = model.formulation.drilling == Formulation::Drilling::penalty;
-  return shell_geometric_stiffness(shell_geometry(model, e), shell_properties(model, e),
-                                   penalty ? DrillingRule::penalty : DrillingRule::diagonal, model.formulation.drilling_factor,
-                                   u);
+  return shell_geometric_stiffness(shell_geometry(model, e), shell_properties(model, e), model.formulation.drilling,
+                                   model.formulation.drilling_factor, u);
+}
+
+Eigen::VectorXd dead_load(const Model& model) {
+  Eigen::VectorXd load = Eigen::VectorXd::Zero(6 * static_cast<Eigen::Index>(model.nodes.size()));
+  const Eigen::Vector3d gravity_m_s2 = model.gravity_m_s2 * model.gravity_direction;
+  if (gravity_m_s2.isZero(0.0)) return load;
+  for (const Element& element : model.elements) add_weight(element_mass(model, element), gravity_m_s2, load);
+  for (const PointMass& mass : model.masses) add_weight(point_mass(mass), gravity_m_s2, load);
+  return load;
 }
 
 }  // namespace twindeck::fe

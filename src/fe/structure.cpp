@@ -3,9 +3,8 @@
 #include <utility>
 
 #include "core/error.hpp"
-#include "fe/assemble_mass.hpp"
-#include "fe/assemble_stiffness.hpp"
 #include "fe/assembly_pattern.hpp"
+#include "fe/assembly_plans.hpp"
 #include "fe/assembly_terms.hpp"
 #include "fe/large_displacement.hpp"
 #include "fe/structure_parts.hpp"

@@ -69,18 +69,12 @@ MatrixTetrahedron tetrahedron_geometric_stiffness(const TetrahedronGeometry& geo
   const Eigen::Matrix<double, 6, 1> stress =
       properties.youngs_modulus_Pa * elasticity(properties.poisson_ratio) * (strain_of(gradient) * displacement);
   const Eigen::Matrix4d slope = volume * gradient.transpose() * stress_tensor(stress) * gradient;
-  MatrixTetrahedron k = MatrixTetrahedron::Zero();
-  for (int i = 0; i < 4; ++i)
-    for (int j = 0; j < 4; ++j) k.block<3, 3>(3 * i, 3 * j).diagonal().setConstant(slope(i, j));
-  return k;
+  return for_three(slope);
 }
 
 MatrixTetrahedron tetrahedron_mass(const TetrahedronGeometry& geometry, double density_kg_m3) {
   const double each = density_kg_m3 * sound_volume(geometry) / 20.0;
-  MatrixTetrahedron m = MatrixTetrahedron::Zero();
-  for (int i = 0; i < 4; ++i)
-    for (int j = 0; j < 4; ++j) m.block<3, 3>(3 * i, 3 * j).diagonal().setConstant(i == j ? 2.0 * each : each);
-  return m;
+  return for_three(Eigen::Matrix4d(each * (Eigen::Matrix4d::Ones() + Eigen::Matrix4d::Identity())));
 }
 
 MatrixTetrahedron tetrahedron_mass_lumped(const TetrahedronGeometry& geometry, double density_kg_m3) {

@@ -11,9 +11,7 @@
 #include "fe/assembly_elements.hpp"
 #include "fe/dof_map.hpp"
 #include "fe/matrix_element.hpp"
-#include "fe/validate_parameters.hpp"
 #include "fe/validate_parts.hpp"
-#include "fe/validate_properties.hpp"
 
 namespace twindeck::fe {
 

@@ -19,4 +19,11 @@ namespace twindeck::fe {
 void validate_references(const Model& model);
 /// Beams and bars have length, shells have area, all nodes are connected.
 void validate_geometry(const Model& model);
+
+/// Moduli, densities and sections of all used elements.
+void validate_properties(const Model& model);
+
+/// Parameters refer to existing names; their initial values equal the model's and lie inside the bounds.
+void validate_parameters(const Model& model);
+
 }  // namespace twindeck::fe

@@ -8,7 +8,6 @@
 
 #include "dynamics/eigenmodes.hpp"
 #include "fe/cable.hpp"
-#include "fe/swinging_stays.hpp"
 
 namespace twindeck::diagnosis {
 

@@ -5,8 +5,7 @@
 #include <utility>
 
 #include "diagnosis/reduction/element_sum.hpp"
-#include "fe/assemble_mass.hpp"
-#include "fe/assemble_stiffness.hpp"
+#include "fe/assembly_plans.hpp"
 
 namespace twindeck::diagnosis {
 

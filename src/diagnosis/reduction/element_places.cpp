@@ -11,7 +11,6 @@
 #include "diagnosis/reduction/composite_groups.hpp"
 #include "diagnosis/reduction/place_parts.hpp"
 #include "fe/assembly_elements.hpp"
-#include "fe/mixed_sides.hpp"
 
 namespace twindeck::diagnosis {
 

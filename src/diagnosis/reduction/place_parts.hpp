@@ -53,7 +53,7 @@ class ElementPlaces {
 
   const Structure& structure_;
   const fe::Model& model_;
-  std::vector<std::uint8_t> straight_sides_;  ///< of triangles, by element (fe/mixed_sides.hpp)
+  std::vector<std::uint8_t> straight_sides_;  ///< of triangles, by element (fe/assembly_elements.hpp)
   Eigen::SparseMatrix<double> expansion_;
   std::vector<int> candidates_;  ///< elements that are no stays
   std::vector<Eigen::Vector3d> centroids_;

@@ -7,7 +7,7 @@
 
 #include "dynamics/eigenmodes.hpp"
 #include "fe/assembly.hpp"
-#include "fe/stay_chains.hpp"
+#include "fe/cable.hpp"
 #include "ponte/virtual_bridge/campaign_settings.hpp"
 #include "sensors/layout.hpp"
 #include "transient/reduced_basis.hpp"

@@ -2,7 +2,7 @@
 
 #include <utility>
 
-#include "fe/mass_words.hpp"
+#include "fe/mass_properties.hpp"
 #include "model_io/ansys.hpp"
 #include "model_io/any_model_folder.hpp"
 #include "model_io/inp.hpp"

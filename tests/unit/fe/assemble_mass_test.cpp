@@ -1,6 +1,4 @@
 // Oracles: masses by hand, and how they go with density, area and thickness.
-#include "fe/assemble_mass.hpp"
-
 #include <gtest/gtest.h>
 
 #include <Eigen/Dense>
@@ -9,6 +7,7 @@
 #include <utility>
 
 #include "assembly_models.hpp"
+#include "fe/assembly_plans.hpp"
 
 namespace twindeck::fe {
 namespace {

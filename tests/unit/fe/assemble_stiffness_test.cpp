@@ -1,12 +1,11 @@
 // Oracles: E A/L, 12 E I/L³, plate stiffness and Ernst's modulus by hand, and how they go with their parameters.
-#include "fe/assemble_stiffness.hpp"
-
 #include <gtest/gtest.h>
 
 #include <Eigen/Dense>
 #include <cmath>
 
 #include "assembly_models.hpp"
+#include "fe/assembly_plans.hpp"
 
 namespace twindeck::fe {
 namespace {

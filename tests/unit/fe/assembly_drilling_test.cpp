@@ -1,7 +1,5 @@
 // Oracle: a shell turned as a rigid body about its normal stores no energy, whatever the drilling rule; corners that turn
 // against each other store k/2 (sum r_i² - 2/3 sum_{i<j} r_i r_j), k = 0.03 E t A, written out.
-#include "fe/assembly_drilling.hpp"
-
 #include <gtest/gtest.h>
 
 #include <Eigen/Dense>
@@ -9,6 +7,7 @@
 
 #include "assembly_models.hpp"
 #include "fe/assembly.hpp"
+#include "fe/shell_quad.hpp"
 
 namespace twindeck::fe {
 namespace {

@@ -1,12 +1,11 @@
 // Oracles: Przemieniecki's matrix, integrals of (dw/dx)² by hand, rigid turns.
-#include "fe/beam_geometric.hpp"
-
 #include <gtest/gtest.h>
 
 #include <Eigen/Dense>
 
 #include "core/error.hpp"
 #include "fe/bar.hpp"
+#include "fe/beam.hpp"
 
 namespace twindeck::fe {
 namespace {

@@ -1,11 +1,10 @@
 // Oracles: published consistent masses, and the mass and the moments of inertia of a rigid rod.
-#include "fe/beam_mass.hpp"
-
 #include <gtest/gtest.h>
 
 #include <Eigen/Dense>
 
 #include "core/error.hpp"
+#include "fe/beam.hpp"
 
 namespace twindeck::fe {
 namespace {

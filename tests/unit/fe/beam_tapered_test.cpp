@@ -10,7 +10,7 @@
 #include "core/error.hpp"
 #include "fe/assembly.hpp"
 #include "fe/beam_frame.hpp"
-#include "fe/dead_load.hpp"
+#include "fe/static_stage.hpp"
 
 namespace twindeck::fe {
 namespace {

@@ -1,12 +1,11 @@
 // Oracles: weights from lengths, areas and densities by hand; moments about the origin.
-#include "fe/dead_load.hpp"
-
 #include <gtest/gtest.h>
 
 #include <Eigen/Dense>
 #include <cmath>
 
 #include "assembly_models.hpp"
+#include "fe/static_stage.hpp"
 
 namespace twindeck::fe {
 namespace {

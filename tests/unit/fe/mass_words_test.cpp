@@ -1,7 +1,7 @@
 // Oracle: the sentence for a body whose numbers are given.
-#include "fe/mass_words.hpp"
-
 #include <gtest/gtest.h>
+
+#include "fe/mass_properties.hpp"
 
 namespace twindeck::fe {
 namespace {

@@ -1,9 +1,8 @@
 // Oracle: small meshes whose common sides are seen by inspection.
-#include "fe/mixed_sides.hpp"
-
 #include <gtest/gtest.h>
 
 #include "assembly_models.hpp"
+#include "fe/assembly_elements.hpp"
 
 namespace twindeck::fe {
 namespace {

@@ -7,8 +7,8 @@
 #include "assembly_models.hpp"
 #include "core/error.hpp"
 #include "fe/assembly.hpp"
-#include "fe/dead_load.hpp"
 #include "fe/prestress_least_squares.hpp"
+#include "fe/static_stage.hpp"
 
 namespace twindeck::fe {
 namespace {

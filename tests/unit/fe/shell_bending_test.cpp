@@ -1,10 +1,9 @@
 // Oracles: energies of constant curvature and of a cubic, rigid motions, a warped plate.
-#include "fe/shell_bending.hpp"
-
 #include <gtest/gtest.h>
 
 #include <Eigen/Dense>
 
+#include "fe/shell_quad.hpp"
 #include "shell_mesh.hpp"
 
 namespace twindeck::fe {

@@ -1,11 +1,10 @@
 // Oracles: energies of constant stress and of pure bending, the drilling rules' own energies, rigid motions.
-#include "fe/shell_membrane.hpp"
-
 #include <gtest/gtest.h>
 
 #include <Eigen/Dense>
 #include <functional>
 
+#include "fe/shell_quad.hpp"
 #include "shell_mesh.hpp"
 
 namespace twindeck::fe {

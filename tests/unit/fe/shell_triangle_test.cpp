@@ -7,8 +7,8 @@
 #include "assembly_models.hpp"
 #include "core/error.hpp"
 #include "fe/assembly.hpp"
-#include "fe/assembly_drilling.hpp"
-#include "fe/mixed_sides.hpp"
+#include "fe/assembly_elements.hpp"
+#include "fe/shell_quad.hpp"
 #include "fe/uneven_shells.hpp"
 #include "shell_mesh.hpp"
 

@@ -12,8 +12,8 @@
 #include "assembly_models.hpp"
 #include "core/error.hpp"
 #include "fe/assembly.hpp"
-#include "fe/dead_load.hpp"
 #include "fe/mass_properties.hpp"
+#include "fe/static_stage.hpp"
 #include "fe/validate.hpp"
 
 namespace twindeck::fe::quadratic_solids {

@@ -8,7 +8,7 @@
 #include "assembly_models.hpp"
 #include "core/error.hpp"
 #include "fe/assembly.hpp"
-#include "fe/dead_load.hpp"
+#include "fe/static_stage.hpp"
 #include "linalg/cholesky.hpp"
 
 namespace twindeck::fe {

@@ -1,5 +1,3 @@
-#include "fe/stay_chains.hpp"
-
 #include <gtest/gtest.h>
 
 #include <Eigen/Dense>
@@ -9,6 +7,7 @@
 
 #include "assembly_models.hpp"
 #include "core/error.hpp"
+#include "fe/cable.hpp"
 
 namespace twindeck::fe {
 namespace {

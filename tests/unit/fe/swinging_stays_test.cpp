@@ -1,7 +1,5 @@
 // Oracles: the taut string between fixed ends, f_n = n/(2 L) sqrt(T/m); a string with an end that moves on a spring and a mass,
 // k - w² M + T kappa cot(kappa L) = 0; Irvine's first symmetric frequency; statics without the cable.
-#include "fe/swinging_stays.hpp"
-
 #include <gtest/gtest.h>
 
 #include <Eigen/Dense>

@@ -8,8 +8,8 @@
 #include "assembly_models.hpp"
 #include "core/error.hpp"
 #include "fe/assembly.hpp"
-#include "fe/dead_load.hpp"
 #include "fe/large_displacement.hpp"
+#include "fe/static_stage.hpp"
 #include "fe/structure.hpp"
 #include "fe/validate.hpp"
 

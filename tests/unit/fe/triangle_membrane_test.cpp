@@ -1,10 +1,10 @@
 // Oracles: rigid motions, constant stress, Felippa's exact energy of pure bending, turned and renumbered triangles.
-#include "fe/triangle_membrane.hpp"
-
 #include <gtest/gtest.h>
 
 #include <Eigen/Dense>
 #include <functional>
+
+#include "fe/triangle.hpp"
 
 namespace twindeck::fe::triangle {
 namespace {

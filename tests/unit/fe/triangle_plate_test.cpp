@@ -1,9 +1,9 @@
 // Oracles: rigid motions, constant curvature, turned and renumbered triangles.
-#include "fe/triangle_plate.hpp"
-
 #include <gtest/gtest.h>
 
 #include <Eigen/Dense>
+
+#include "fe/triangle.hpp"
 
 namespace twindeck::fe::triangle {
 namespace {

@@ -1,6 +1,4 @@
 // Oracle: each model has one wrong parameter made on purpose; the message must name it and what was found.
-#include "fe/validate_parameters.hpp"
-
 #include <gtest/gtest.h>
 
 #include <functional>
@@ -8,6 +6,7 @@
 
 #include "assembly_models.hpp"
 #include "core/error.hpp"
+#include "fe/validate_parts.hpp"
 
 namespace twindeck::fe {
 namespace {

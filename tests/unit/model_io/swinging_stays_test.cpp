@@ -1,10 +1,9 @@
 // Oracle: a model folder holds a stay that swings: written and read it has the same frequencies and pulls.
-#include "fe/swinging_stays.hpp"
-
 #include <gtest/gtest.h>
 
 #include "dynamics/eigenmodes.hpp"
 #include "fe/assembly.hpp"
+#include "fe/cable.hpp"
 #include "model_io/read_model.hpp"
 #include "model_io/write_model.hpp"
 #include "test_folder.hpp"

@@ -10,7 +10,7 @@
 #include <set>
 
 #include "core/error.hpp"
-#include "fe/dead_load.hpp"
+#include "fe/static_stage.hpp"
 #include "fe/structure.hpp"
 #include "io/csv.hpp"
 #include "ponte/generator.hpp"

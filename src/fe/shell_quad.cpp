@@ -1,6 +1,7 @@
-#include "fe/shell_membrane.hpp"
+#include "fe/shell_quad.hpp"
 
 #include <Eigen/Dense>
+#include <Eigen/Geometry>
 
 #include "fe/element_products.hpp"
 #include "fe/shell_frame.hpp"
@@ -85,6 +86,34 @@ double penalty_of(const ShellProperties& properties, DrillingRule drilling, doub
 
 constexpr std::array<int, 3> membrane_places = {0, 1, 5};  ///< u v rz among the six of a corner
 
+/// d/dξ, d/dη of the eight serendipity functions: corners 0-3, then the middles of the sides 0-1, 1-2, 2-3, 3-0.
+Eigen::Matrix<double, 2, 8> serendipity_gradient(double xi, double eta) {
+  Eigen::Matrix<double, 2, 8> n;
+  for (int i = 0; i < 4; ++i) {
+    const double a = shell::kXi[static_cast<std::size_t>(i)], b = shell::kEta[static_cast<std::size_t>(i)];
+    n(0, i) = 0.25 * a * (1.0 + b * eta) * (2.0 * a * xi + b * eta);
+    n(1, i) = 0.25 * b * (1.0 + a * xi) * (2.0 * b * eta + a * xi);
+  }
+  n.col(4) << -xi * (1.0 - eta), -0.5 * (1.0 - xi * xi);
+  n.col(5) << 0.5 * (1.0 - eta * eta), -eta * (1.0 + xi);
+  n.col(6) << -xi * (1.0 + eta), 0.5 * (1.0 - xi * xi);
+  n.col(7) << -0.5 * (1.0 - eta * eta), -eta * (1.0 - xi);
+  return n;
+}
+
+/// Unit E t³ (12 × 12).
+Eigen::Matrix<double, 12, 12> bending(const shell::Frame& frame, double poisson_ratio) {
+  const auto beta = shell::plate_rotations(frame.corner_m);
+  const Eigen::Matrix3d d = shell::plane_stress(poisson_ratio) / 12.0;
+  Eigen::Matrix<double, 12, 12> k = Eigen::Matrix<double, 12, 12>::Zero();
+  for (const Eigen::Vector2d& point : shell::gauss_2x2()) {
+    const shell::Bilinear at = shell::bilinear_at(frame, point.x(), point.y());
+    const Eigen::Matrix<double, 2, 8> gradient = at.inverse * serendipity_gradient(point.x(), point.y());
+    k += quadratic_form(at.determinant, shell::curvature_of(beta, gradient), d);
+  }
+  return k;
+}
+
 }  // namespace
 
 Matrix24 shell_membrane_stiffness(const ShellGeometry& geometry, const ShellProperties& properties, DrillingRule drilling,
@@ -98,12 +127,8 @@ Matrix24 shell_membrane_stiffness(const ShellGeometry& geometry, const ShellProp
     const double factor = drilling_factor > 0.0 ? drilling_factor : 0.03;
     for (int i = 0; i < 4; ++i) plane(3 * i + 2, 3 * i + 2) += factor * shell_area(geometry);
   }
-  Matrix24 local = Matrix24::Zero();
-  for (int i = 0; i < 12; ++i)
-    for (int j = 0; j < 12; ++j)
-      local(6 * (i / 3) + membrane_places[static_cast<std::size_t>(i % 3)],
-            6 * (j / 3) + membrane_places[static_cast<std::size_t>(j % 3)]) = plane(i, j);
-  return congruence(shell::corner_displacements(frame), local, properties.youngs_modulus_Pa * properties.thickness_m);
+  return congruence(shell::corner_displacements(frame), shell::placed(plane, membrane_places),
+                    properties.youngs_modulus_Pa * properties.thickness_m);
 }
 
 Matrix24 shell_geometric_stiffness(const ShellGeometry& geometry, const ShellProperties& properties, DrillingRule drilling,
@@ -118,18 +143,63 @@ Matrix24 shell_geometric_stiffness(const ShellGeometry& geometry, const ShellPro
   const Eigen::Matrix3d d =
       properties.youngs_modulus_Pa * properties.thickness_m * shell::plane_stress(properties.poisson_ratio);
   const shell::Bilinear centre = shell::bilinear_at(frame, 0.0, 0.0);
-  Matrix24 local = Matrix24::Zero();
+  Eigen::Matrix4d slope = Eigen::Matrix4d::Zero();
   for (const Eigen::Vector2d& point : shell::gauss_2x2()) {
     const shell::Bilinear at = shell::bilinear_at(frame, point.x(), point.y());
     const Eigen::Matrix2d gradient = incompatible_gradient(centre, at.determinant, point.x(), point.y());
     const Eigen::Vector3d n = d * (corner_strain(at) * plane + mode_strain(gradient) * modes);
     Eigen::Matrix2d force;
     force << n[0], n[2], n[2], n[1];
-    const Eigen::Matrix4d slope = at.determinant * at.gradient.transpose() * force * at.gradient;
-    for (int i = 0; i < 4; ++i)
-      for (int j = 0; j < 4; ++j) local.block<3, 3>(6 * i, 6 * j).diagonal().array() += slope(i, j);
+    slope += at.determinant * at.gradient.transpose() * force * at.gradient;
   }
-  return congruence(turn, local, 1.0);
+  return congruence(turn, shell::at_corners(slope, 1.0), 1.0);
+}
+
+Matrix24 shell_bending_stiffness(const ShellGeometry& geometry, const ShellProperties& properties) {
+  const shell::Frame frame = shell::frame_of(geometry);
+  const Eigen::Matrix<double, 12, 12> plate = bending(frame, properties.poisson_ratio);
+  const double t = properties.thickness_m;
+  const double scale = properties.youngs_modulus_Pa * t * t * t * properties.bending_inertia_ratio;
+  return congruence(shell::corner_displacements(frame), shell::placed(plate, {2, 3, 4}), scale);
+}
+
+double shell_area(const ShellGeometry& geometry) {
+  const auto& x = geometry.node_m;
+  return 0.5 * (x[2] - x[0]).cross(x[3] - x[1]).norm();
+}
+
+/// Translations are interpolated from the nodes themselves (no rigid arms), so that the mass of a warped element stays where
+/// its nodes are. Drilling rotations carry no mass.
+Matrix24 shell_mass(const ShellGeometry& geometry, double mass_per_area, double rotary_per_area) {
+  const shell::Frame frame = shell::frame_of(geometry);
+  Eigen::Matrix4d products = Eigen::Matrix4d::Zero();
+  for (const Eigen::Vector2d& point : shell::gauss_2x2()) {
+    const shell::Bilinear at = shell::bilinear_at(frame, point.x(), point.y());
+    products += at.determinant * at.value * at.value.transpose();
+  }
+  const Eigen::Matrix3d in_plane = Eigen::Matrix3d::Identity() - frame.axes.row(2).transpose() * frame.axes.row(2);
+  return shell::at_corners(products, mass_per_area, rotary_per_area, in_plane);
+}
+
+Matrix24 shell_mass_lumped(const ShellGeometry& geometry, double mass_per_area, double rotary_per_area) {
+  const Matrix24 consistent = shell_mass(geometry, mass_per_area, rotary_per_area);
+  Matrix24 m = Matrix24::Zero();
+  for (int i = 0; i < 4; ++i)
+    for (int j = 0; j < 4; ++j)
+      for (const int d : {0, 3}) m.block<3, 3>(6 * i + d, 6 * i + d) += consistent.block<3, 3>(6 * i + d, 6 * j + d);
+  return m;
+}
+
+Matrix24 drilling_spread(const ShellGeometry& geometry, const ShellProperties& properties, double factor) {
+  const auto& x = geometry.node_m;
+  const Eigen::Vector3d n = (x[2] - x[0]).cross(x[3] - x[1]).normalized();  // of the mean plane
+  const double k =
+      (factor > 0.0 ? factor : 0.03) * properties.youngs_modulus_Pa * properties.thickness_m * shell_area(geometry);
+  Matrix24 spread = Matrix24::Zero();
+  for (int i = 0; i < 4; ++i)
+    for (int j = 0; j < 4; ++j)
+      if (i != j) spread.block<3, 3>(6 * i + 3, 6 * j + 3) = -k / 3.0 * n * n.transpose();
+  return spread;
 }
 
 }  // namespace twindeck::fe

@@ -1,4 +1,4 @@
-#include "fe/triangle_membrane.hpp"
+#include "fe/triangle.hpp"
 
 #include <Eigen/Dense>
 #include <algorithm>
@@ -85,6 +85,26 @@ Matrix9 optimal_membrane(const Corners& corner_m, double poisson_ratio, std::uin
 
 Eigen::Matrix<double, 3, 9> mean_strain(const Corners& corner_m, std::uint8_t straight_sides) {
   return corner_forces(corner_m, straight_sides).transpose() / area(corner_m);
+}
+
+Matrix9 kirchhoff_plate(const Corners& corner_m, double poisson_ratio) {
+  const auto beta = shell::plate_rotations(corner_m);
+  const Eigen::Matrix<double, 2, 3> g = gradients(corner_m);
+  const Eigen::Matrix3d d = shell::plane_stress(poisson_ratio) / 12.0;
+  Matrix9 k = Matrix9::Zero();
+  // Curvatures are linear, so the three middles of the sides, a third of the area each, integrate exactly.
+  for (int point = 0; point < 3; ++point) {
+    Eigen::Vector3d at = Eigen::Vector3d::Constant(0.5);  // area coordinates
+    at[point] = 0.0;
+    Eigen::Matrix<double, 2, 6> slope;
+    for (int i = 0; i < 3; ++i) {
+      const int j = (i + 1) % 3;
+      slope.col(i) = (4.0 * at[i] - 1.0) * g.col(i);
+      slope.col(3 + i) = 4.0 * (at[i] * g.col(j) + at[j] * g.col(i));
+    }
+    k += quadratic_form(area(corner_m) / 3.0, shell::curvature_of(beta, slope), d);
+  }
+  return k;
 }
 
 }  // namespace twindeck::fe::triangle

@@ -1,10 +1,31 @@
 #pragma once
 
+#include <Eigen/Core>
+#include <array>
 #include <cstdint>
 
-#include "fe/triangle_corners.hpp"
-
+/// What membrane, plate and mass of the three-node shell share: its corners in its own plane and the gradients of linear
+/// shapes.
 namespace twindeck::fe::triangle {
+
+using Corners = std::array<Eigen::Vector2d, 3>;  ///< [m], anticlockwise
+using Matrix9 = Eigen::Matrix<double, 9, 9>;
+
+/// Area, positive for anticlockwise corners [m²].
+[[nodiscard]] inline double area(const Corners& x) {
+  const Eigen::Vector2d a = x[1] - x[0], b = x[2] - x[0];
+  return 0.5 * (a.x() * b.y() - a.y() * b.x());
+}
+
+/// d/dx, d/dy of the three area coordinates, one column each [1/m], (2 × 3).
+[[nodiscard]] inline Eigen::Matrix<double, 2, 3> gradients(const Corners& x) {
+  Eigen::Matrix<double, 2, 3> g;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const Eigen::Vector2d opposite = x[(i + 2) % 3] - x[(i + 1) % 3];
+    g.col(static_cast<Eigen::Index>(i)) << -opposite.y(), opposite.x();
+  }
+  return g / (2.0 * area(x));
+}
 
 /// Membrane of a triangle with a rotation at each corner: the optimal one of the ANDES family ("OPT").
 ///
@@ -24,11 +45,21 @@ namespace twindeck::fe::triangle {
 /// Reference: Felippa (2003), A study of optimal membrane triangles with drilling freedoms, CMAME 192, 2125-2168 (section 4 and
 /// its coefficients of OPT); Alvin, de la Fuente, Haugen and Felippa (1992) for the part of constant stress.
 /// @param poisson_ratio  [-], in [0, 0.5[
-/// @param straight_sides  bit i set: side from corner i to the next (mixed_sides.hpp)
+/// @param straight_sides  bit i set: side from corner i to the next (sides_beside_four_nodes)
 /// @return for unit E and thickness, (9 × 9): u, v, rz of corner 1, 2, 3; rank 6
 [[nodiscard]] Matrix9 optimal_membrane(const Corners& corner_m, double poisson_ratio, std::uint8_t straight_sides);
 
 /// Mean strains xx, yy, 2xy of the triangle from the nine displacements (3 × 9), those of its constant stresses.
 [[nodiscard]] Eigen::Matrix<double, 3, 9> mean_strain(const Corners& corner_m, std::uint8_t straight_sides);
+
+/// Discrete-Kirchhoff plate bending of a triangle (DKT). Rotations of the normal are quadratic in the triangle. At the middle
+/// of each side the part across the side is the mean of the corners' and the part along it is the slope of the side's cubic, so
+/// that shear strains vanish along the sides and a thin plate does not lock. The triangle shares the cubics of its sides with
+/// the four-node plate (DKQ), so that meshes of both fit together.
+///
+/// Reference: Batoz, Bathe and Ho (1980), A study of three-node triangular plate bending elements, IJNME 15, 1771-1812.
+/// @param poisson_ratio  [-]
+/// @return for unit E t³, (9 × 9): w, rx = dw/dy, ry = -dw/dx of corner 1, 2, 3; rank 6
+[[nodiscard]] Matrix9 kirchhoff_plate(const Corners& corner_m, double poisson_ratio);
 
 }  // namespace twindeck::fe::triangle

@@ -13,4 +13,7 @@ namespace twindeck::fe {
 /// Axial stiffness of stays, one term each: Dischinger's modulus at the cable force, or the full modulus without a force.
 [[nodiscard]] std::vector<TermPlan> plan_stays(const Model& model, const Eigen::VectorXd& stay_pull_N);
 
+/// Mass of beams by group, shells by section (translations ~ rho t, rotations ~ rho t³), bars and stays, point masses.
+[[nodiscard]] std::vector<TermPlan> plan_mass(const Model& model);
+
 }  // namespace twindeck::fe
