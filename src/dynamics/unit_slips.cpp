@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <numbers>
 #include <optional>
 #include <set>
@@ -87,53 +88,56 @@ struct KnownMaterial {
 constexpr std::array<KnownMaterial, 4> known_materials = {
     {{7850.0, 5170.0}, {2450.0, 3600.0}, {2700.0, 5080.0}, {480.0, 4800.0}}};
 
-/// A density that is a weight per volume, or in another unit of mass: divided by it, the material is like a known one.
+/// [-] of ln: least distance to a known material in density and speed together.
+double off_known(double density_kg_m3, double speed_m_s) {
+  double least = std::numeric_limits<double>::infinity();
+  for (const KnownMaterial& known : known_materials)
+    least = std::min(least, std::hypot(std::log(density_kg_m3 / known.density_kg_m3), std::log(speed_m_s / known.speed_m_s)));
+  return least;
+}
+
+/// A unit of weight per volume, or another unit of mass, in which a density may be.
+struct WeightUnit {
+  double density_kg_m3;                    ///< of one of it
+  const char* name;                        ///< "lbf/in3"
+  double modulus_Pa = 1.0;                 ///< of one unit of stress in a system without a unit of mass of its own
+  const char *system = "", *divisor = "";  ///< its name; "" among numbers in SI units
+};
+/// Among SI numbers first; then those of the systems.
+constexpr std::array<WeightUnit, 9> weight_units = {
+    {{1.0 / gravity_m_s2, "a weight in N/m3 (divide by 9.81)"},
+     {1.0 / gravity_in_s2, "a weight in lbf/in3 (is PARAM,WTMASS,.00259 missing?)"},
+     {1e-3 / gravity_m_s2, "a weight in N/mm3 (divide by 9810)"},
+     {1e-3, "in kg where the other units ask for tonnes"},
+     {27679.9, "lbf/in3", 6894.757, "lbf and in", "386.09"},
+     {1e6, "kgf/cm3", 98066.5, "kgf and cm", "980.665"},
+     {1e3, "tonf/m3", 9806.65, "tonf and m", "9.80665"},
+     {1e3 / gravity_m_s2, "kN/m3", 1e3, "kN and m", "9.80665"},
+     {1e9 / gravity_m_s2, "N/mm3", 1e6, "N and mm", "9806.65"}}};
+
+/// A density that is a weight per volume, or in another unit of mass: in kg/m3 the material is like a known one.
 std::optional<std::string> weight_slip(const fe::Material& m, double speed) {
   const bool timber = timber_weight_N_m3.holds(m.density_kg_m3) && timber_modulus_Pa.holds(m.youngs_modulus_Pa);
-  if (m.density_kg_m3 < densest_kg_m3 && !timber) return std::nullopt;
-  constexpr double alike = 0.5;  ///< [-] of ln: distance to a known material in density and speed together
-  const OtherUnit* best = nullptr;
-  double nearest = alike;
-  static constexpr std::array<OtherUnit, 4> units = {{{gravity_m_s2, "a weight in N/m3 (divide by 9.81)"},
-                                                      {gravity_in_s2, "a weight in lbf/in3 (is PARAM,WTMASS,.00259 missing?)"},
-                                                      {1000.0 * gravity_m_s2, "a weight in N/mm3 (divide by 9810)"},
-                                                      {1000.0, "in kg where the other units ask for tonnes"}}};
-  for (const OtherUnit& unit : units)
-    for (const KnownMaterial& known : known_materials) {
-      const double off = std::hypot(std::log(m.density_kg_m3 / unit.factor / known.density_kg_m3),
-                                    std::log(speed * std::sqrt(unit.factor) / known.speed_m_s));
-      if (off < nearest) nearest = off, best = &unit;
-    }
+  const bool heavy = m.density_kg_m3 >= densest_kg_m3 || timber;
+  constexpr double alike_in_system = 0.25;  ///< foams, which have such numbers in SI units, are 0.4 off
+  const WeightUnit* best = nullptr;
+  double nearest = 0.5;
+  for (const WeightUnit& unit : weight_units) {
+    const double density = m.density_kg_m3 * unit.density_kg_m3;
+    const double off = off_known(density, std::sqrt(m.youngs_modulus_Pa * unit.modulus_Pa / density));
+    if (*unit.system == '\0' ? heavy && off < nearest : best == nullptr && off <= alike_in_system) nearest = off, best = &unit;
+  }
   if (best == nullptr) return std::nullopt;
+  if (*best->system != '\0')
+    return fmt::format(
+        "material '{}' has E = {:.4g} and a density of {:.4g}: is the density a weight in {}, among numbers in {}? Divide it "
+        "by "
+        "{}",
+        m.name, m.youngs_modulus_Pa, m.density_kg_m3, best->name, best->system, best->divisor);
   return fmt::format(
       "material '{}' has a density of {:.3g} kg/m3, so that waves run at {:.3g} m/s in it; steel has 7850 kg/m3 and 5200 m/s, "
       "concrete 2500 and 3500: is the density {}? Give kg/m3",
       m.name, m.density_kg_m3, speed, best->name);
-}
-
-/// A weight per volume in a deck whose numbers are in one of the systems without a unit of mass of its own.
-std::optional<std::string> weight_of_system(const fe::Material& m) {
-  struct System {
-    double modulus_Pa, density_kg_m3;  ///< of one unit of stress, of weight per volume
-    const char *weight, *units, *divisor;
-  };
-  static constexpr std::array<System, 5> systems = {{{6894.757, 27679.9, "lbf/in3", "lbf and in", "386.09"},
-                                                     {98066.5, 1e6, "kgf/cm3", "kgf and cm", "980.665"},
-                                                     {9806.65, 1e3, "tonf/m3", "tonf and m", "9.80665"},
-                                                     {1e3, 1e3 / gravity_m_s2, "kN/m3", "kN and m", "9.80665"},
-                                                     {1e6, 1e9 / gravity_m_s2, "N/mm3", "N and mm", "9806.65"}}};
-  constexpr double alike = 0.25;  ///< [-] of ln, as in weight_slip; foams, which have such numbers in SI units, are 0.4 off
-  for (const System& system : systems)
-    for (const KnownMaterial& known : known_materials) {
-      const double density = m.density_kg_m3 * system.density_kg_m3,
-                   speed = std::sqrt(m.youngs_modulus_Pa * system.modulus_Pa / density);
-      if (std::hypot(std::log(density / known.density_kg_m3), std::log(speed / known.speed_m_s)) > alike) continue;
-      return fmt::format(
-          "material '{}' has E = {:.4g} and a density of {:.4g}: is the density a weight in {}, among numbers in {}? Divide it "
-          "by {}",
-          m.name, m.youngs_modulus_Pa, m.density_kg_m3, system.weight, system.units, system.divisor);
-    }
-  return std::nullopt;
 }
 
 /// Mean density of the structure: all mass that is in it over the volume of its elements.
@@ -300,9 +304,7 @@ std::vector<std::string> unit_slips(const fe::Model& model) {
     const fe::Material& m = model.materials[static_cast<std::size_t>(at)];
     if (!(m.density_kg_m3 > 0.0)) continue;  // a part without mass may be as stiff as one likes
     const double speed = std::sqrt(m.youngs_modulus_Pa / m.density_kg_m3);
-    auto weight = weight_slip(m, speed);
-    if (!weight) weight = weight_of_system(m);
-    if (weight) {
+    if (const auto weight = weight_slip(m, speed)) {
       slips.push_back(*weight);  // a modulus in kPa would explain the speed as well, but not the density
       continue;
     }
