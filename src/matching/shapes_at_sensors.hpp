@@ -1,9 +1,17 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <array>
+#include <map>
+#include <memory>
+#include <string>
+#include <vector>
 
 #include "dynamics/eigenmodes.hpp"
 #include "dynamics/loaded_model.hpp"
+#include "fe/dof_map.hpp"
+#include "fe/model.hpp"
+#include "fe/parametric_system.hpp"
 #include "matching/measured.hpp"
 
 namespace twindeck::matching {
@@ -26,5 +34,33 @@ void refuse_unplaced_channels(const Measured& measured, const dynamics::ReadMode
 /// @return [-] (n × n_measured_dofs)
 /// @throws InputError  as above
 [[nodiscard]] Eigen::MatrixXd sensor_vectors(const Measured& measured, const dynamics::LoadedModel& model, double tolerance_m);
+
+/// Where the modes of a model are known, and which of several nodes at one place a sensor may stand on.
+/// Six values a node (FE), or single dofs (matrix model).
+struct ModelPoints {
+  std::vector<std::string> node;                  ///< name of each node
+  std::vector<Eigen::Vector3d> x_m;               ///< NaN where unknown
+  std::vector<std::array<Eigen::Index, 6>> row;   ///< rows of the expanded shapes; -1 where the node lacks the direction
+  std::map<std::string, int> named;               ///< points.csv of the model: position in `node`
+  const fe::Model* model = nullptr;               ///< null for a matrix model
+  mutable std::shared_ptr<const fe::DofMap> map;  ///< of the model: made when nodes that coincide are first looked at
+};
+
+/// @param model  null for a matrix model, whose points are those of its `dofs`
+[[nodiscard]] ModelPoints points_of(const fe::Model* model, const std::vector<fe::DofLabel>& dofs);
+
+/// Nodes at the place of one of them, itself among them, in the order of the model.
+[[nodiscard]] std::vector<std::size_t> nodes_at_the_place_of(const ModelPoints& points, std::size_t node);
+
+/// Those of several nodes at one place that a sensor may stand on: the one that bears its name (in points.csv of the model, or
+/// as its id), else those that can move (of a matrix model: that have a degree of freedom along the sensor). Never empty.
+/// @param cosine  of the sensor along x … rz; zeros where unknown
+[[nodiscard]] std::vector<std::size_t> possible_nodes(const ModelPoints& points, const std::vector<std::size_t>& there,
+                                                      const std::string& name, const std::array<double, 6>& cosine);
+
+/// Whether nodes move alike along a sensor whatever the structure does: links, supports or constraints see to it.
+/// @param cosine  as above
+[[nodiscard]] bool move_as_one(const ModelPoints& points, const std::vector<std::size_t>& nodes,
+                               const std::array<double, 6>& cosine);
 
 }  // namespace twindeck::matching

@@ -1,7 +1,6 @@
-#include "matching/model_points.hpp"
-
 #include <gtest/gtest.h>
 
+#include "matching/shapes_at_sensors.hpp"
 #include "unit/fe/assembly_models.hpp"
 
 namespace twindeck::matching {

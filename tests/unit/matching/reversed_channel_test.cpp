@@ -1,5 +1,3 @@
-#include "matching/reversed_channel.hpp"
-
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -8,6 +6,7 @@
 #include <numbers>
 #include <utility>
 
+#include "matching/pairing_account.hpp"
 #include "unit/matching/measured_modes.hpp"
 
 namespace twindeck::matching {
