@@ -3,9 +3,9 @@
 #include <Eigen/Core>
 #include <memory>
 
-#include "wind/coherence_table.hpp"
 #include "wind/component.hpp"
 #include "wind/spectrum.hpp"
+#include "wind/turbulence.hpp"
 
 namespace twindeck::wind {
 

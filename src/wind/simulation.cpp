@@ -10,9 +10,8 @@
 
 #include "core/error.hpp"
 #include "core/parallel.hpp"
-#include "core/random.hpp"
 #include "signal/fft.hpp"
-#include "wind/unit_wave.hpp"
+#include "wind/wave_sums.hpp"
 
 namespace twindeck::wind {
 

@@ -4,7 +4,6 @@
 #include <cstddef>
 
 #include "core/random.hpp"
-#include "wind/unit_wave.hpp"
 
 namespace twindeck::wind {
 

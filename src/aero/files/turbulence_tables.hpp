@@ -5,9 +5,9 @@
 #include <memory>
 #include <vector>
 
-#include "wind/coherence_table.hpp"
 #include "wind/component.hpp"
 #include "wind/spectrum.hpp"
+#include "wind/turbulence.hpp"
 
 /// Measured laws of the turbulence as tables. The column `component` has the paper's letters (v along the wind, u across it,
 /// w vertical); each component's rows ascend.

@@ -1,12 +1,12 @@
 // Forces of coupled friction units. Oracles: hand calculations of one unit; the law itself, which has one solution, checked on
 // random units; symmetry in the sign.
-#include "transient/friction_balance.hpp"
-
 #include <gtest/gtest.h>
 
 #include <Eigen/Dense>
 #include <algorithm>
 #include <random>
+
+#include "transient/newmark.hpp"
 
 namespace twindeck::transient {
 namespace {

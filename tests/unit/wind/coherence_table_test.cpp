@@ -1,6 +1,4 @@
 /// Oracles: the table's points, and the exponential law that a table of it stands for.
-#include "wind/coherence_table.hpp"
-
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -8,6 +6,7 @@
 
 #include "core/error.hpp"
 #include "two_arcs.hpp"
+#include "wind/turbulence.hpp"
 
 namespace twindeck::wind {
 namespace {

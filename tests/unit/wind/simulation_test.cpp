@@ -15,7 +15,7 @@
 #include "signal/welch.hpp"
 #include "two_arcs.hpp"
 #include "wind/spectrum.hpp"
-#include "wind/unit_wave.hpp"
+#include "wind/wave_sums.hpp"
 
 namespace twindeck::wind {
 namespace {
