@@ -3,7 +3,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "aero/flutter_derivatives.hpp"
+#include "aero/derivatives.hpp"
 
 /// Flutter derivatives that are known in closed form, for tests.
 namespace twindeck::aero {

@@ -38,11 +38,6 @@ double interpolate(const Eigen::MatrixXd& value, const Between& row, const Betwe
   return (1.0 - row.part) * along(row.lower) + row.part * along(row.upper);
 }
 
-std::string name_of(Convention convention, int index) {
-  const char* groups = convention == Convention::zasso ? "hpa" : "HPA";
-  return fmt::format("{}{}", groups[index / 6], index % 6 + 1);
-}
-
 }  // namespace
 
 DerivativeTable::DerivativeTable(Convention convention, std::vector<double> alpha_rad, std::array<DerivativeCurve, 18> curves,

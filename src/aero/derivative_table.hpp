@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-#include "aero/flutter_derivatives.hpp"
+#include "aero/derivatives.hpp"
 
 namespace twindeck::aero {
 

@@ -5,6 +5,7 @@
 #include "core/error.hpp"
 
 namespace twindeck::aero {
+
 namespace {
 
 constexpr int kLateral = 0, kVertical = 1, kPitch = 2;  // motions along y and z, and alpha
@@ -49,6 +50,10 @@ Derivatives18 from_block(Convention convention, const DerivativeBlock& block, do
     values[static_cast<std::size_t>(i)] = (e.damping ? block.damping : block.stiffness)(e.row, e.column) / factor;
   }
   return values;
+}
+
+std::string name_of(Convention convention, int index) {
+  return (convention == Convention::zasso ? "hpa" : "HPA")[index / 6] + std::to_string(index % 6 + 1);
 }
 
 }  // namespace twindeck::aero

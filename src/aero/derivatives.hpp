@@ -2,6 +2,8 @@
 
 #include <Eigen/Core>
 #include <array>
+#include <memory>
+#include <string>
 
 namespace twindeck::aero {
 
@@ -34,6 +36,8 @@ struct DerivativeEntry {
   bool damping;  ///< else stiffness
 };
 [[nodiscard]] DerivativeEntry entry_of(Convention convention, int index);
+/// "H1" … "A6" of Scanlan's form, "h1" … "a6" of Zasso's.
+[[nodiscard]] std::string name_of(Convention convention, int index);
 
 /// From either convention, at V* = V/(omega B). Zasso's form is the paper's Eq. (8); there p1, p4 multiply the vertical and p5,
 /// p6 the horizontal motion, so that (paper Eq. (9), corrected: a2* with V*, drag rows exchanged)
@@ -43,5 +47,17 @@ struct DerivativeEntry {
 [[nodiscard]] DerivativeBlock to_block(Convention convention, const Derivatives18& values, double v_over_omegaB);
 /// The inverse of to_block.
 [[nodiscard]] Derivatives18 from_block(Convention convention, const DerivativeBlock& block, double v_over_omegaB);
+
+/// Flutter derivatives of a section as a function of angle of attack and reduced velocity, from any source.
+class FlutterDerivatives {
+ public:
+  virtual ~FlutterDerivatives() = default;
+  /// @param alpha_rad      mean angle of attack, nose-up
+  /// @param v_over_omegaB  V* = V/(omega B) = 1/K; a wind tunnel's V/(f B) is 2π times that
+  [[nodiscard]] virtual DerivativeBlock at(double alpha_rad, double v_over_omegaB) const = 0;
+  /// Whether `at` has a value there; false where it would refuse.
+  [[nodiscard]] virtual bool covers(double /*alpha_rad*/, double /*v_over_omegaB*/) const { return true; }
+};
+using DerivativesPtr = std::shared_ptr<const FlutterDerivatives>;
 
 }  // namespace twindeck::aero

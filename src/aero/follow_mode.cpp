@@ -6,7 +6,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "aero/state_matrix.hpp"
+#include "aero/aeroelastic_system.hpp"
 
 namespace twindeck::aero {
 namespace {

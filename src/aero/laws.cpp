@@ -26,9 +26,6 @@ constexpr double least_difference = 0.15;
 constexpr double share_of_slope = 0.25;
 constexpr double least_slope = 0.05;  ///< [1/rad] the rounding of coefficients with three decimals, half a degree apart
 
-constexpr std::array<const char*, 18> kDerivativeNames = {"h1", "h2", "h3", "h4", "h5", "h6", "p1", "p2", "p3",
-                                                          "p4", "p5", "p6", "a1", "a2", "a3", "a4", "a5", "a6"};
-
 double nearest_to_zero(const std::vector<double>& alpha) {
   return *std::min_element(alpha.begin(), alpha.end(), [](double a, double b) { return std::abs(a) < std::abs(b); });
 }
@@ -95,7 +92,7 @@ std::optional<std::string> pitching_damping(const DerivativeTable& table) {
 // Which derivatives have a quasi-steady limit: all but those of displacements, and those of the rotational rate with their arm.
 std::vector<std::size_t> with_limit(const QuasiSteady::Arms& arms) {
   std::vector<std::size_t> which;
-  for (std::size_t i = 0; i < kDerivativeNames.size(); ++i) {
+  for (std::size_t i = 0; i < Derivatives18().size(); ++i) {
     const std::size_t number = i % 6 + 1;
     const double arm = i < 6 ? arms.lift : i < 12 ? arms.drag : arms.moment;
     if (number == 4 || number == 6 || (number == 2 && arm == 0.0)) continue;
@@ -118,7 +115,7 @@ std::optional<std::string> quasi_steady(const Polar& polar, const DerivativeTabl
       if (by_size ? std::abs(found[i] - limit[i]) <= allowed : !(of_rotation && other_sign)) continue;
       return fmt::format(
           "{}: {} is {:.4g} at V/(f B) = {:.3g} and {:.3g} degrees, where the polar gives {:.4g} by quasi-steady theory",
-          table.source(), kDerivativeNames[i], found[i], v_f, alpha * degrees, limit[i]);
+          table.source(), name_of(Convention::zasso, static_cast<int>(i)), found[i], v_f, alpha * degrees, limit[i]);
     }
   }
   return std::nullopt;

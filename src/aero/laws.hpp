@@ -3,9 +3,8 @@
 #include <string>
 #include <vector>
 
-#include "aero/analytic_derivatives.hpp"
 #include "aero/derivative_table.hpp"
-#include "aero/flutter_derivatives.hpp"
+#include "aero/derivatives.hpp"
 #include "aero/polar.hpp"
 
 /// Laws that aerodynamic data of a deck section normally obey; a wrong sign in a file breaks one of them. They compare the

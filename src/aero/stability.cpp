@@ -5,7 +5,7 @@
 #include <Eigen/Eigenvalues>
 #include <vector>
 
-#include "aero/state_matrix.hpp"
+#include "aero/aeroelastic_system.hpp"
 #include "core/parallel.hpp"
 
 namespace twindeck::aero {

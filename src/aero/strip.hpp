@@ -3,7 +3,7 @@
 #include <Eigen/Core>
 #include <string>
 
-#include "aero/flutter_derivatives.hpp"
+#include "aero/derivatives.hpp"
 #include "aero/polar.hpp"
 #include "aero/yaw_rule.hpp"
 

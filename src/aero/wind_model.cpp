@@ -5,9 +5,10 @@
 
 #include <algorithm>
 
-#include "aero/analytic_derivatives.hpp"
 #include "aero/follow_mode.hpp"
+#include "aero/polar.hpp"
 #include "core/angle.hpp"
+#include "fe/assembly_elements.hpp"
 #include "linalg/cholesky.hpp"
 #include "transient/reduced_basis.hpp"
 
@@ -80,11 +81,8 @@ linalg::SparseMatrix stiffness_with(const dynamics::LoadedModel& loaded, const s
 Eigen::MatrixXd damper_patterns(const dynamics::LoadedModel& loaded, const std::vector<const fe::Spring*>& dampers) {
   Eigen::MatrixXd nodal = Eigen::MatrixXd::Zero(loaded.system.expansion.rows(), static_cast<Eigen::Index>(dampers.size()));
   for (std::size_t j = 0; j < dampers.size(); ++j) {
-    const fe::Spring& s = *dampers[j];
-    const int offset = s.rotation ? 3 : 0;
-    const auto column = static_cast<Eigen::Index>(j);
-    nodal.col(column).segment<3>(6 * s.node + offset) += s.direction.normalized();
-    if (s.node2 >= 0) nodal.col(column).segment<3>(6 * s.node2 + offset) -= s.direction.normalized();
+    const fe::Elongation e = fe::elongation_of(*dampers[j]);
+    nodal.col(static_cast<Eigen::Index>(j))(e.dofs) = e.coefficient;
   }
   return loaded.system.expansion.transpose() * nodal;
 }

@@ -84,20 +84,20 @@ Instabilities find_instabilities(const WindSettings& config, const std::vector<F
   const std::vector<Deployment> deployments = config.deployments();
   Instabilities found;
   for (const FittedSet& set : sets) {
-    for (const Deployment& deployment : deployments)
-      found.critical.push_back(critical_row(config, set.name, system(set, deployment), false, config.structural_damping));
+    const auto add = [&](const AeroelasticSystem& of, bool dampers, double damping, long modes) {
+      found.critical.push_back(critical_row(config, set.name, of, dampers, damping));
+      if (modes > 0) found.damping.push_back(damping_curves(config, set.name, of, dampers, damping, modes));
+    };
+    for (const Deployment& deployment : deployments) add(system(set, deployment), false, config.structural_damping, 0);
     const Deployment fitted = everywhere(published_yaw_rule(config.fit_model));
     found.damping.push_back(
         damping_curves(config, set.name, system(set, fitted), false, config.structural_damping, config.followed_modes));
     ReducedStructure identified = bare;
     identified.damping_ratio.setConstant(config.identified_damping);
-    const AeroelasticSystem as_identified(identified, set.sections, model.strips, model.motions, wind, fitted);
-    found.critical.push_back(critical_row(config, set.name, as_identified, false, config.identified_damping));
-    found.damping.push_back(damping_curves(config, set.name, as_identified, false, config.identified_damping, 1));
+    add({identified, set.sections, model.strips, model.motions, wind, fitted}, false, config.identified_damping, 1);
     if (damped.dampers == 0) continue;
-    const AeroelasticSystem with(damped.structure, set.sections, model.strips, damped.motions, wind, fitted);
-    found.critical.push_back(critical_row(config, set.name, with, true, config.structural_damping));
-    found.damping.push_back(damping_curves(config, set.name, with, true, config.structural_damping, config.damped_modes));
+    add({damped.structure, set.sections, model.strips, damped.motions, wind, fitted}, true, config.structural_damping,
+        config.damped_modes);
   }
   return found;
 }

@@ -21,6 +21,10 @@ Eigen::Matrix3i on_oblique_strip() {
 
 }  // namespace
 
+std::string name_of(StaticRule rule) {
+  return rule == StaticRule::normal ? "normal" : rule == StaticRule::cosine ? "cosine" : "oblique_strip";
+}
+
 const std::vector<YawRule>& published_yaw_rules() {
   using enum StaticRule;
   static const std::string cosine_group = "Cosine rule and skew wind theory", wind_group = "Wind Y";

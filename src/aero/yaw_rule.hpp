@@ -13,6 +13,9 @@ enum class StaticRule {
   oblique_strip  ///< C(alpha, 0), B' = B/cos theta, L' = L cos theta: the strip that the wind crosses
 };
 
+/// "normal", "cosine", "oblique_strip".
+[[nodiscard]] std::string name_of(StaticRule rule);
+
 /// Axes of forces and motions.
 enum class ForceAxes {
   deck,  ///< y = the deck's horizontal normal, alpha about the deck's axis

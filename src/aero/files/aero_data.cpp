@@ -27,14 +27,6 @@ double coefficient(const io::CsvTable& table, std::size_t row, const std::string
   return value;
 }
 
-std::vector<std::string> names_of(Convention convention) {
-  std::vector<std::string> names;
-  for (const char group : std::string(convention == Convention::zasso ? "hpa" : "HPA")) {
-    for (int i = 1; i <= 6; ++i) names.push_back(group + std::to_string(i));
-  }
-  return names;
-}
-
 std::string reduced_velocity_column(const io::CsvTable& table) {
   const bool f = table.has("V_over_fB"), omega = table.has("V_over_omegaB");
   if (f != omega) return f ? "V_over_fB" : "V_over_omegaB";
@@ -107,13 +99,10 @@ DerivativeTable read_flutter_derivatives(const std::filesystem::path& file, OutO
   const io::CsvTable table = io::CsvTable::read(file, {}, {}, true);
   const std::string velocity = reduced_velocity_column(table);
   const Convention convention = convention_of(table);
-  const std::vector<std::string> names = names_of(convention);
-  for (const std::string& name : names) {
-    if (!table.has(name)) {
-      throw InputError({file.string(), 1, name}, "is missing; all eighteen derivatives are needed",
+  for (int i = 0; i < 18; ++i)
+    if (!table.has(name_of(convention, i)))
+      throw InputError({file.string(), 1, name_of(convention, i)}, "is missing; all eighteen derivatives are needed",
                        "add the column, with 0 where it was not measured");
-    }
-  }
   const double to_omega = velocity == "V_over_fB" ? 1.0 / (2.0 * std::numbers::pi) : 1.0;
 
   std::map<std::pair<double, double>, std::size_t> row_at;
@@ -144,7 +133,7 @@ DerivativeTable read_flutter_derivatives(const std::filesystem::path& file, OutO
     for (std::size_t i = 0; i < alpha.size(); ++i) {
       for (std::size_t j = 0; j < speed.size(); ++j) {
         curves[d].value(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j)) =
-            coefficient(table, row_at.at({alpha[i], speed[j]}), names[d]);
+            coefficient(table, row_at.at({alpha[i], speed[j]}), name_of(convention, static_cast<int>(d)));
       }
     }
   }

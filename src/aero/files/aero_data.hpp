@@ -3,7 +3,7 @@
 #include <filesystem>
 
 #include "aero/derivative_table.hpp"
-#include "aero/flutter_derivatives.hpp"
+#include "aero/derivatives.hpp"
 #include "aero/polar.hpp"
 
 namespace twindeck::aero {

@@ -6,7 +6,7 @@
 #include <map>
 #include <optional>
 
-#include "aero/files/turbulence_sets.hpp"
+#include "aero/files/turbulence_files.hpp"
 #include "core/error.hpp"
 #include "core/parallel.hpp"
 #include "fe/assembly_parameters.hpp"

@@ -3,8 +3,7 @@
 #include <algorithm>
 #include <map>
 
-#include "aero/files/turbulence_sets.hpp"
-#include "aero/files/turbulence_tables.hpp"
+#include "aero/files/turbulence_files.hpp"
 
 namespace twindeck::steps {
 

@@ -1,10 +1,10 @@
 // Oracles: the relative wind at a point that moves, linearised by differences; the moment about mid-chord of the same; arms of
 // the rotational rate by hand; the static slope as the limit of a slow rotation.
-#include "aero/analytic_derivatives.hpp"
-
 #include <gtest/gtest.h>
 
 #include <cmath>
+
+#include "aero/polar.hpp"
 
 namespace {
 

@@ -6,7 +6,7 @@
 
 #include <cmath>
 
-#include "aero/analytic_derivatives.hpp"
+#include "aero/polar.hpp"
 #include "core/angle.hpp"
 #include "known_derivatives.hpp"
 #include "verification/wind_sections.hpp"

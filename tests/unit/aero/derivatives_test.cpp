@@ -1,12 +1,13 @@
 // Oracles: quasi-steady theory, whose damping follows from the relative wind by hand; limits and a tabulated value of
 // Theodorsen's function; the inverse of each conversion.
+#include "aero/derivatives.hpp"
+
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <numbers>
 
-#include "aero/analytic_derivatives.hpp"
-#include "aero/flutter_derivatives.hpp"
+#include "aero/polar.hpp"
 #include "known_derivatives.hpp"
 
 namespace {

@@ -8,8 +8,8 @@
 #include <functional>
 #include <numbers>
 
-#include "aero/analytic_derivatives.hpp"
 #include "aero/derivative_table.hpp"
+#include "aero/polar.hpp"
 #include "known_derivatives.hpp"
 
 namespace {

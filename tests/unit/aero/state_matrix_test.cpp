@@ -1,11 +1,11 @@
 // Oracles: the roots of one degree of freedom in wind in closed form; each eigenvalue of a Maxwell unit satisfies its cubic.
-#include "aero/state_matrix.hpp"
-
 #include <gtest/gtest.h>
 
 #include <Eigen/Eigenvalues>
 #include <cmath>
 #include <complex>
+
+#include "aero/aeroelastic_system.hpp"
 
 namespace {
 

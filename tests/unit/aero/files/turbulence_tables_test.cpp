@@ -1,10 +1,9 @@
 // Oracles: the file's own numbers; each kind of mistake is refused with the words a user needs.
-#include "aero/files/turbulence_tables.hpp"
-
 #include <gtest/gtest.h>
 
 #include <string>
 
+#include "aero/files/turbulence_files.hpp"
 #include "core/error.hpp"
 #include "unit/records/scratch.hpp"
 
