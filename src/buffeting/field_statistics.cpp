@@ -1,19 +1,23 @@
 #include "buffeting/field_statistics.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <utility>
 
+#include "core/distributions.hpp"
+#include "core/error.hpp"
 #include "signal/welch.hpp"
 
 namespace twindeck::buffeting {
+
+namespace {
 
 using Eigen::Index;
 using Eigen::MatrixXcd;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
-
-namespace {
 
 /// Segments of the spectra: longer ones are fewer, and their coherence scatters more. The limits below rest on this length.
 constexpr double kSegment_s = 64.0;
@@ -105,6 +109,22 @@ std::vector<FieldCheck> FieldStatistics::checks() const {
     out.push_back({event_, "coherence_" + letter + "_error", 0.0,
                    std::sqrt(difference / static_cast<double>(std::max<Index>(pairs, 1))), kCoherenceLimit * scatter});
   }
+  return out;
+}
+
+Interval confidence_interval(const Eigen::Ref<const Eigen::VectorXd>& replicates, double level) {
+  const Eigen::Index n = replicates.size();
+  if (n < 2) {
+    throw InputError({"", 0, "replicates"}, fmt::format("are {}, expected at least two for an interval", n),
+                     "ask for more seeds");
+  }
+  Interval out;
+  out.mean = replicates.mean();
+  out.deviation = std::sqrt((replicates.array() - out.mean).square().sum() / static_cast<double>(n - 1));
+  const double half =
+      student_quantile(static_cast<double>(n - 1), 0.5 * (1.0 + level)) * out.deviation / std::sqrt(static_cast<double>(n));
+  out.low = out.mean - half;
+  out.high = out.mean + half;
   return out;
 }
 

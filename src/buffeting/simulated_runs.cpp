@@ -8,7 +8,6 @@
 #include <utility>
 
 #include "aero/stability.hpp"
-#include "buffeting/gusts.hpp"
 #include "buffeting/loads.hpp"
 #include "buffeting/response.hpp"
 #include "buffeting/spectral.hpp"

@@ -7,7 +7,7 @@
 #include <numbers>
 #include <string>
 
-#include "buffeting/interval.hpp"
+#include "buffeting/field_statistics.hpp"
 #include "buffeting/loads.hpp"
 #include "buffeting/response.hpp"
 #include "buffeting/spectral.hpp"

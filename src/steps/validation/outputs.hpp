@@ -5,7 +5,6 @@
 
 #include "buffeting/bridge_in_wind.hpp"
 #include "buffeting/field_statistics.hpp"
-#include "buffeting/interval.hpp"
 #include "buffeting/paper_statements.hpp"
 #include "buffeting/simulated_runs.hpp"
 #include "buffeting/time_checks.hpp"

@@ -1,13 +1,12 @@
 /// Oracles: the forced oscillator from rest in closed form, and the order of the method; Rayleigh's damping at two frequencies;
 /// the same equations, dense and with the inner points of Maxwell units, by Newmark's method of transient.
-#include "buffeting/full_model_history.hpp"
-
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <numbers>
 
 #include "aero/wind_model.hpp"
+#include "buffeting/time_checks.hpp"
 #include "transient/newmark.hpp"
 #include "unit/aero/beam_deck.hpp"
 

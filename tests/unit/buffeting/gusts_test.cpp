@@ -1,8 +1,7 @@
 /// Oracles: the samples of the wind's own simulators, the order of the load's columns.
-#include "buffeting/gusts.hpp"
-
 #include <gtest/gtest.h>
 
+#include "buffeting/loads.hpp"
 #include "gusty_beam.hpp"
 
 namespace twindeck::buffeting {

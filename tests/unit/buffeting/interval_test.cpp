@@ -1,10 +1,9 @@
 /// Oracles: arithmetic by hand with the quantile of a printed table of Student's t (Abramowitz and Stegun, table 26.10).
-#include "buffeting/interval.hpp"
-
 #include <gtest/gtest.h>
 
 #include <cmath>
 
+#include "buffeting/field_statistics.hpp"
 #include "buffeting/response.hpp"
 #include "core/error.hpp"
 
