@@ -6,15 +6,12 @@
 #include <fstream>
 
 #include "core/error.hpp"
+#include "fe/assembly_parameters.hpp"
 #include "ponte/bridge_definition.hpp"
-#include "ponte/dampers.hpp"
 #include "ponte/deck.hpp"
-#include "ponte/deck_axis.hpp"
 #include "ponte/definition_file.hpp"
-#include "ponte/ends.hpp"
 #include "ponte/mast.hpp"
 #include "ponte/model_builder.hpp"
-#include "ponte/stays.hpp"
 #include "ponte/supports.hpp"
 
 namespace twindeck::ponte {
@@ -111,52 +108,40 @@ void add_parameters(fe::Model& model, const BridgeDefinition& definition) {
                      "names '" + of + "', which the model does not have" + did_you_mean(of, known),
                      "name a material, a section or a group of springs or masses, as the target asks");
   };
+  static const std::map<fe::Target, const char*> units = {{fe::Target::youngs_modulus, "Pa"},
+                                                          {fe::Target::density, "kg/m3"},
+                                                          {fe::Target::thickness, "m"},
+                                                          {fe::Target::area, "m2"}};
   for (const ParameterDefinition& p : definition.parameters) {
-    fe::Parameter out{p.name, p.target, p.of, "-", 1.0, 0.0, 0.0};
-    for (const std::string& of : p.of) {
-      std::vector<std::string> known;
-      const auto find = [&](const auto& parts, auto name_of) {
-        for (const auto& part : parts) {
-          known.push_back(name_of(part));
-        }
-        const auto found = std::find(known.begin(), known.end(), of);
-        if (found == known.end()) {
-          fail(p, of, known);
-        }
-        return static_cast<std::size_t>(found - known.begin());
-      };
-      const auto by_name = [](const auto& part) { return part.name; };
-      const auto by_group = [](const auto& part) { return part.group; };
-      switch (p.target) {
-        case fe::Target::youngs_modulus:
-          out.initial = model.materials[find(model.materials, by_name)].youngs_modulus_Pa;
-          out.unit = "Pa";
-          break;
-        case fe::Target::density:
-          out.initial = model.materials[find(model.materials, by_name)].density_kg_m3;
-          out.unit = "kg/m3";
-          break;
-        case fe::Target::thickness:
-          out.initial = model.sections[find(model.sections, by_name)].thickness_m;
-          out.unit = "m";
-          break;
-        case fe::Target::bending_inertia_ratio:
-          out.initial = model.sections[find(model.sections, by_name)].bending_inertia_ratio;
-          break;
-        case fe::Target::area:
-          out.initial = model.sections[find(model.sections, by_name)].area_m2;
-          out.unit = "m2";
-          break;
-        case fe::Target::point_mass:
-          (void)find(model.masses, by_group);
-          break;
-        default:
-          (void)find(model.springs, by_group);
-      }
+    std::vector<std::string> known;
+    const auto know = [&](const auto& parts, auto name) {
+      for (const auto& part : parts) known.push_back(part.*name);
+    };
+    switch (p.target) {
+      case fe::Target::youngs_modulus:
+      case fe::Target::density:
+        know(model.materials, &fe::Material::name);
+        break;
+      case fe::Target::point_mass:
+        know(model.masses, &fe::PointMass::group);
+        break;
+      case fe::Target::spring_stiffness:
+        know(model.springs, &fe::Spring::group);
+        break;
+      default:
+        know(model.sections, &fe::Section::name);
     }
-    out.lower = out.initial * (1.0 - p.bound);
-    out.upper = out.initial * (1.0 + p.bound);
-    model.parameters.push_back(out);
+    for (const std::string& of : p.of)
+      if (std::find(known.begin(), known.end(), of) == known.end()) fail(p, of, known);
+    const auto unit = units.find(p.target);
+    model.parameters.push_back({p.name, p.target, p.of, unit == units.end() ? "-" : unit->second, 1.0, 0.0, 0.0});
+  }
+  const Eigen::VectorXd standing = fe::initial_parameters(model);
+  for (std::size_t i = 0; i < model.parameters.size(); ++i) {
+    fe::Parameter& parameter = model.parameters[i];
+    parameter.initial = standing[static_cast<Eigen::Index>(i)];
+    parameter.lower = parameter.initial * (1.0 - definition.parameters[i].bound);
+    parameter.upper = parameter.initial * (1.0 + definition.parameters[i].bound);
   }
 }
 
@@ -238,10 +223,7 @@ std::vector<Change> as_built_changes(const std::filesystem::path& bridge_toml) {
 }
 
 fe::Model generate(const std::filesystem::path& bridge_toml, const std::string& variant, const std::string& mesh) {
-  DefinitionFile file = open(bridge_toml);
-  apply_mesh(file, mesh);
-  apply_variant(file, variant);
-  return build(read_definition(std::move(file)), variant);
+  return generate_with_values(bridge_toml, variant, mesh, {});
 }
 
 fe::Model generate_with_changes(const std::filesystem::path& bridge_toml, const std::vector<std::string>& changes,

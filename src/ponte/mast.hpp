@@ -1,8 +1,10 @@
 #pragma once
 
 #include <map>
+#include <string>
 
 #include "ponte/bridge_definition.hpp"
+#include "ponte/deck.hpp"
 #include "ponte/model_builder.hpp"
 
 namespace twindeck::ponte {
@@ -14,5 +16,9 @@ struct MastNodes {
   [[nodiscard]] int top() const { return by_z.rbegin()->second; }
 };
 [[nodiscard]] MastNodes build_mast(ModelBuilder& builder, const BridgeDefinition& definition);
+
+/// Deck stays and the two ground cables, one element each.
+void build_stays(ModelBuilder& builder, const BridgeDefinition& definition, const std::map<std::string, DeckNodes>& decks,
+                 const MastNodes& mast);
 
 }  // namespace twindeck::ponte

@@ -4,8 +4,7 @@
 #include <cstdio>
 #include <filesystem>
 
-#include "ponte/calibration/calibration_file.hpp"
-#include "ponte/calibration/calibration_tables.hpp"
+#include "ponte/calibration/calibration_files.hpp"
 #include "runner/threads.hpp"
 
 namespace {

@@ -71,11 +71,7 @@ updating::FitObjective objective_of(const Calibration& calibration) {
   out.weight = calibration.weight;
   out.unit = calibration.frequency_std;
   out.range_costs = calibration.whole_range_costs;
-  out.start.resize(std::ssize(calibration.values));
-  for (Index v = 0; v < out.start.size(); ++v) {
-    const CalibrationValue& value = calibration.values[static_cast<std::size_t>(v)];
-    out.start[v] = value.part_of(value.start);
-  }
+  out.start = starts(calibration);
   return out;
 }
 
@@ -156,6 +152,15 @@ double CalibrationValue::at(double part) const {
 
 double CalibrationValue::part_of(double value) const {
   return linear ? (value - lower) / (upper - lower) : std::log(value / lower) / std::log(upper / lower);
+}
+
+Eigen::VectorXd starts(const Calibration& calibration) {
+  Eigen::VectorXd out(std::ssize(calibration.values));
+  for (Index v = 0; v < out.size(); ++v) {
+    const CalibrationValue& value = calibration.values[static_cast<std::size_t>(v)];
+    out[v] = value.part_of(value.start);
+  }
+  return out;
 }
 
 Calibration for_trial(Calibration calibration, const std::string& trial) {

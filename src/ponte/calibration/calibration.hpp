@@ -90,6 +90,9 @@ struct Calibration {
 /// The values of bridge.toml at given parts of the ranges, with the form's; a path that several values name gets their product.
 [[nodiscard]] Values bridge_values(const Calibration& calibration, const Eigen::VectorXd& part);
 
+/// The starts of all values as parts of their ranges. (n_values)
+[[nodiscard]] Eigen::VectorXd starts(const Calibration& calibration);
+
 struct CalibrationResult {
   Eigen::VectorXd part;             ///< (n_values) where each value ended in its range
   Eigen::VectorXd untuned, fitted;  ///< (all targets) frequencies [Hz] at the start and at the end

@@ -5,8 +5,10 @@
 #include <string>
 #include <vector>
 
+#include "aero/wind_model.hpp"
 #include "ponte/virtual_bridge/virtual_bridge.hpp"
 #include "transient/trapezoidal.hpp"
+#include "wind/turbulence.hpp"
 
 /// Time histories of the virtual bridge, and what is true about them.
 namespace twindeck::ponte {
@@ -81,5 +83,21 @@ struct TrueModes {
 /// variance at c of mode i  |phi_ci|² · phi_i^H S phi_i · pi f_i / (4 zeta_i). @return (n_modes)
 [[nodiscard]] Eigen::VectorXd participation(const ConditionModel& model, const TrueModes& modes,
                                             const Eigen::MatrixXd& channel_shapes);
+
+/// Wind events of the virtual bridge: what they rest on, read once.
+struct VirtualWind {
+  aero::WindSettings aerodynamics;  ///< decks and air
+  std::vector<aero::DeckAerodynamics> data;
+  wind::TurbulenceSet turbulence;
+};
+
+/// Accelerations in a wind event: turbulence of the record's mean speed and direction on the aerodynamic nodes of the virtual
+/// bridge, quasi-steady gust forces and self-excited forces by the settings' rule, sliding dampers. The gusts repeat after the
+/// record, so that the warm-up before it is their own end. Self-excited forces are those of the motion one step before (5 ms;
+/// their phase then lags by 2 % of a radian at the first mode), derivatives frozen at that mode's frequency.
+/// @param stream  of random numbers: one a record
+[[nodiscard]] Motion simulate_wind(const ConditionModel& model, const CampaignSettings& settings, const RecordSettings& record,
+                                   const VirtualWind& virtual_wind, const std::vector<sensors::LayoutChannel>& channels,
+                                   std::uint64_t seed, std::uint64_t stream);
 
 }  // namespace twindeck::ponte

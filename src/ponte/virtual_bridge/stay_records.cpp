@@ -9,7 +9,6 @@
 #include "core/error.hpp"
 #include "core/random.hpp"
 #include "fe/assembly_elements.hpp"
-#include "fe/elements.hpp"
 #include "transient/trapezoidal.hpp"
 
 namespace twindeck::ponte {

@@ -4,21 +4,23 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <set>
+#include <string>
 
 #include "core/error.hpp"
 #include "fe/uneven_shells.hpp"
 #include "io/csv.hpp"
 #include "matching/pairing.hpp"
 #include "ponte/generator.hpp"
-#include "ponte/zoned_members.hpp"
 
 namespace twindeck::ponte {
+
+namespace {
+
 using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
-
-namespace {
 
 constexpr double kDeckMode = 0.5;         ///< [-] of the kinetic energy in stays: a mode with less is one of the decks
 constexpr double kNeverPaired = 1e3;      ///< a distance in ln f beyond any between two modes
@@ -45,6 +47,65 @@ void check_damper_types(const CampaignSettings& settings, const fe::Model& model
   for (const std::string& type : known)
     if (!seen.contains(type))
       throw InputError({"", 0, "damper"}, "has no table for type " + type, "add [[damper]] with its mount and friction");
+}
+
+/// One mode each, pairs of least distance first; modes that are mostly stays are not looked at.
+std::vector<Index> nearest_named(const BridgeState& state, const CampaignSettings& settings) {
+  const Index n = std::ssize(settings.named), m = state.modes.frequency_Hz.size();
+  MatrixXd distance(n, m);
+  for (Index i = 0; i < n; ++i) {
+    for (Index j = 0; j < m; ++j) {
+      const double ratio = state.modes.frequency_Hz[j] / settings.named[static_cast<std::size_t>(i)].frequency_Hz;
+      distance(i, j) = state.stay_share[j] < kDeckMode ? std::abs(std::log(ratio)) : kNeverPaired;
+    }
+  }
+  std::map<Index, Index> mode_of;
+  for (Index k = 0; k < n; ++k) {
+    Index i = 0, j = 0;
+    distance.minCoeff(&i, &j);
+    mode_of[i] = j;
+    distance.row(i).setConstant(1e6);
+    distance.col(j).setConstant(1e6);
+  }
+  std::vector<Index> named;
+  for (const auto& [name, mode] : mode_of) named.push_back(mode);
+  return named;
+}
+
+/// Refuses corrections that were found for other frequencies or for another bridge. @param state  with the corrections,
+/// untouched by temperature
+void refuse_stale_corrections(const CampaignSettings& settings, const BridgeState& state) {
+  constexpr double kAllowed = 0.002;  // [-] ten times what --calibrate ends at: rounding and a mode that turns do not reach it
+  if (settings.corrections.empty()) return;
+  for (std::size_t i = 0; i < settings.named.size(); ++i) {
+    const NamedMode& wanted = settings.named[i];
+    const double f_Hz = state.modes.frequency_Hz[state.named[i]];
+    if (std::abs(f_Hz / wanted.frequency_Hz - 1.0) > kAllowed)
+      throw InputError(
+          {settings.corrections, 0, "factor"},
+          fmt::format("the bridge has mode {} at {:.4f} Hz, expected {:g} Hz within {:g} %, as mode.frequency says",
+                      wanted.name, f_Hz, wanted.frequency_Hz, 100.0 * kAllowed),
+          "find corrections for it with --calibrate and corrections = \"\"");
+  }
+}
+
+constexpr double kBound = 0.5;  // of the parameters, relative
+
+std::string deck_of(const std::string& group) {
+  for (const std::string deck : {"foot", "cycle"}) {
+    if (group.starts_with(deck + "_")) return deck;
+  }
+  return "";
+}
+
+/// From 1 at mid-length to `zones` at the ends, by x, which grows along the deck all the way.
+int zone_of(double x_m, double reach_m, int zones) {
+  return 1 + std::min(zones - 1, static_cast<int>(std::abs(x_m) / reach_m * zones));
+}
+
+void add_parameter(fe::Model& model, const std::string& name, fe::Target target, const std::string& of, const std::string& unit,
+                   double value) {
+  model.parameters.push_back({name, target, {of}, unit, value, value * (1.0 - kBound), value * (1.0 + kBound)});
 }
 
 }  // namespace
@@ -103,33 +164,6 @@ std::vector<Index> follow_named(const BridgeState& before, const BridgeState& st
   return {followed.begin(), followed.end()};
 }
 
-namespace {
-
-/// One mode each, pairs of least distance first; modes that are mostly stays are not looked at.
-std::vector<Index> nearest_named(const BridgeState& state, const CampaignSettings& settings) {
-  const Index n = std::ssize(settings.named), m = state.modes.frequency_Hz.size();
-  MatrixXd distance(n, m);
-  for (Index i = 0; i < n; ++i) {
-    for (Index j = 0; j < m; ++j) {
-      const double ratio = state.modes.frequency_Hz[j] / settings.named[static_cast<std::size_t>(i)].frequency_Hz;
-      distance(i, j) = state.stay_share[j] < kDeckMode ? std::abs(std::log(ratio)) : kNeverPaired;
-    }
-  }
-  std::map<Index, Index> mode_of;
-  for (Index k = 0; k < n; ++k) {
-    Index i = 0, j = 0;
-    distance.minCoeff(&i, &j);
-    mode_of[i] = j;
-    distance.row(i).setConstant(1e6);
-    distance.col(j).setConstant(1e6);
-  }
-  std::vector<Index> named;
-  for (const auto& [name, mode] : mode_of) named.push_back(mode);
-  return named;
-}
-
-}  // namespace
-
 BridgeState solve_bridge(const VirtualBridge& bridge, const CampaignSettings& settings, const VectorXd& theta, long n_modes) {
   BridgeState state;
   const fe::PrestressState pulls = fe::find_prestress(bridge.undivided, theta);
@@ -152,27 +186,6 @@ BridgeState solve_bridge(const VirtualBridge& bridge, const CampaignSettings& se
   state.named = nearest_named(state, settings);
   return state;
 }
-
-namespace {
-
-/// Refuses corrections that were found for other frequencies or for another bridge. @param state  with the corrections,
-/// untouched by temperature
-void refuse_stale_corrections(const CampaignSettings& settings, const BridgeState& state) {
-  constexpr double kAllowed = 0.002;  // [-] ten times what --calibrate ends at: rounding and a mode that turns do not reach it
-  if (settings.corrections.empty()) return;
-  for (std::size_t i = 0; i < settings.named.size(); ++i) {
-    const NamedMode& wanted = settings.named[i];
-    const double f_Hz = state.modes.frequency_Hz[state.named[i]];
-    if (std::abs(f_Hz / wanted.frequency_Hz - 1.0) > kAllowed)
-      throw InputError(
-          {settings.corrections, 0, "factor"},
-          fmt::format("the bridge has mode {} at {:.4f} Hz, expected {:g} Hz within {:g} %, as mode.frequency says",
-                      wanted.name, f_Hz, wanted.frequency_Hz, 100.0 * kAllowed),
-          "find corrections for it with --calibrate and corrections = \"\"");
-  }
-}
-
-}  // namespace
 
 std::map<double, BridgeState> solve_states(const VirtualBridge& bridge, const CampaignSettings& settings,
                                            const VectorXd& theta) {
@@ -206,6 +219,40 @@ MatrixXd at_channels(const BridgeState& state, const MatrixXd& x, const std::vec
   for (std::size_t c = 0; c < channels.size(); ++c)
     out.row(static_cast<Index>(c)) = channels[c].cosines.transpose() * full.middleRows(6 * nodes[c], 3);
   return out;
+}
+
+fe::Model with_zoned_members(fe::Model model, int zones) {
+  TWINDECK_ASSERT(zones >= 1);
+  const auto x_of = [&](int node) { return model.nodes[static_cast<std::size_t>(node)].x_m.x(); };
+  std::map<std::string, double> reach_m;
+  for (const fe::PointMass& mass : model.masses) {
+    double& reach = reach_m[deck_of(mass.group)];
+    reach = std::max(reach, std::abs(x_of(mass.node)));
+  }
+  std::map<std::string, int> material_of;
+  for (fe::Element& element : model.elements) {
+    const std::string deck = deck_of(element.group);
+    if (element.type != fe::ElementType::beam || deck.empty()) continue;
+    const double x = (x_of(element.nodes[0]) + x_of(element.nodes[1])) / 2.0;
+    const std::string name = element.group + "_" + std::to_string(zone_of(x, reach_m.at(deck), zones));
+    const auto [entry, is_new] = material_of.try_emplace(name, static_cast<int>(model.materials.size()));
+    if (is_new) {
+      fe::Material material = model.materials[static_cast<std::size_t>(element.material)];
+      material.name = "steel_" + name;
+      model.materials.push_back(material);
+      add_parameter(model, "E_" + name, fe::Target::youngs_modulus, material.name, "Pa", material.youngs_modulus_Pa);
+    }
+    element.material = entry->second;
+  }
+  std::map<std::string, bool> seen;
+  for (fe::PointMass& mass : model.masses) {
+    const std::string deck = deck_of(mass.group);
+    if (deck.empty()) continue;
+    mass.group += "_" + std::to_string(zone_of(x_of(mass.node), reach_m.at(deck), zones));
+    if (!seen.emplace(mass.group, true).second) continue;
+    add_parameter(model, "m_" + mass.group, fe::Target::point_mass, mass.group, "-", 1.0);
+  }
+  return model;
 }
 
 }  // namespace twindeck::ponte

@@ -16,7 +16,6 @@
 #include "ponte/virtual_bridge/simulated_records.hpp"
 #include "ponte/virtual_bridge/stay_records.hpp"
 #include "ponte/virtual_bridge/tuning.hpp"
-#include "ponte/virtual_bridge/wind_records.hpp"
 #include "steps/campaign/campaign_files.hpp"
 #include "steps/layout/layout_files.hpp"
 #include "steps/wind/aerodynamics_config.hpp"

@@ -1,11 +1,10 @@
 // Oracles: numbers and texts typed in here; the study's own file must be readable and its trials complete.
-#include "ponte/calibration/calibration_file.hpp"
-
 #include <gtest/gtest.h>
 
 #include <fstream>
 
 #include "core/error.hpp"
+#include "ponte/calibration/calibration_files.hpp"
 #include "test_places.hpp"
 
 namespace twindeck::ponte {

@@ -1,13 +1,12 @@
 // Tables of a calibration. Oracles: cells calculated by hand from numbers set here, and that a table read back gives the same
 // parts.
-#include "ponte/calibration/calibration_tables.hpp"
-
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <fstream>
 
 #include "core/error.hpp"
+#include "ponte/calibration/calibration_files.hpp"
 
 namespace twindeck::ponte {
 namespace {

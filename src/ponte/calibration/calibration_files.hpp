@@ -6,9 +6,13 @@
 #include "io/csv.hpp"
 #include "ponte/calibration/calibration.hpp"
 
-/// The tables of a calibration.
 namespace twindeck::ponte {
 
+/// Reads calibration.toml: targets, sizes with their ranges, known forces and masses, forms and trials.
+/// @throws InputError naming file and line
+[[nodiscard]] Calibration read_calibration(const std::filesystem::path& file);
+
+/// The tables of a calibration.
 /// values.csv: `value,unit,untuned,lower,upper,fitted,edge,reason`.
 void write_calibration_values(const Calibration& calibration, const CalibrationResult& result,
                               const std::filesystem::path& file);
@@ -23,8 +27,6 @@ void write_calibration_known(const Calibration& calibration, const CalibrationRe
 /// The values of an earlier fit (values.csv), as parts of their ranges; those that it does not have begin at their start.
 /// @throws InputError for a value of a logarithmic range that is not above 0
 [[nodiscard]] Eigen::VectorXd parts_in(const std::filesystem::path& values_csv, const Calibration& calibration);
-/// The starts of all values as parts of their ranges. (n_values)
-[[nodiscard]] Eigen::VectorXd starts(const Calibration& calibration);
 
 /// One row a trial: what it is fitted to, errors of the frequencies, forces, masses, displacement, values on an edge, parts of
 /// the cost.
