@@ -10,7 +10,6 @@
 #include "buffeting/loads.hpp"
 #include "buffeting/spectral.hpp"
 #include "core/distributions.hpp"
-#include "core/error.hpp"
 #include "core/random.hpp"
 
 namespace twindeck::reliability {

@@ -7,11 +7,11 @@
 #include <map>
 
 #include "core/parallel.hpp"
-#include "reliability/annual.hpp"
 #include "reliability/fatigue.hpp"
 #include "reliability/form.hpp"
-#include "reliability/member_rows.hpp"
 #include "reliability/subset_simulation.hpp"
+#include "reliability/varied_structure.hpp"
+#include "reliability/wind_law.hpp"
 #include "steps/reliability/outputs.hpp"
 
 namespace twindeck::steps {

@@ -1,9 +1,9 @@
 /// Oracles: straight lines and powers through given points.
-#include "reliability/annual.hpp"
-
 #include <gtest/gtest.h>
 
 #include <cmath>
+
+#include "reliability/wind_law.hpp"
 
 namespace twindeck::reliability {
 namespace {

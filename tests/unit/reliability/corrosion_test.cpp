@@ -1,11 +1,10 @@
 /// Oracle: the formula of ISO 9224 worked by hand.
-#include "reliability/corrosion.hpp"
-
 #include <gtest/gtest.h>
 
 #include <cmath>
 
 #include "core/error.hpp"
+#include "reliability/worn_model.hpp"
 
 namespace twindeck::reliability {
 namespace {

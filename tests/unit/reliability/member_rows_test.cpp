@@ -1,8 +1,8 @@
 /// Oracle: a stay of length 5 m along (3, 0, 4)/5 whose upper end is held: its force is E A/L times the elongation,
 /// Dischinger's modulus being the full one without a static force. A damper's stroke is the motion of its node along it.
-#include "reliability/member_rows.hpp"
-
 #include <gtest/gtest.h>
+
+#include "reliability/varied_structure.hpp"
 
 namespace twindeck::reliability {
 namespace {
