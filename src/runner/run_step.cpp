@@ -21,7 +21,6 @@
 #include "model_io/model_toml.hpp"
 #include "runner/clean_interrupt.hpp"
 #include "runner/command_line.hpp"
-#include "runner/configured_inputs.hpp"
 #include "runner/heartbeat.hpp"
 #include "runner/plan.hpp"
 #include "runner/shipped_files.hpp"

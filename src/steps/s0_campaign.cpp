@@ -1,5 +1,4 @@
 #include "runner/run_step.hpp"
-#include "steps/campaign/campaign_config.hpp"
 #include "steps/campaign/test_campaign.hpp"
 
 /// Step 0: the virtual test campaign (paper sections 3.1 and 3.2): records of a bridge whose truth is known.

@@ -1,7 +1,5 @@
 /// Step 10: probabilities of the updated bridge in a given mean wind: comfort limits, loss of stability, and which input they
 /// hang on.
-#include <fmt/format.h>
-
 #include "steps/reliability/inputs.hpp"
 #include "steps/reliability/reliability.hpp"
 

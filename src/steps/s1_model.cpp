@@ -11,7 +11,6 @@
 #include "runner/run_step.hpp"
 #include "runner/study.hpp"
 #include "steps/model/exports.hpp"
-#include "steps/model/mesh_convergence.hpp"
 #include "steps/model/model_config.hpp"
 #include "steps/model/model_tables.hpp"
 #include "steps/shared/model_source.hpp"

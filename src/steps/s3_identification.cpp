@@ -6,10 +6,8 @@
 #include "records/inspect.hpp"
 #include "runner/run_step.hpp"
 #include "steps/identification/identification_config.hpp"
-#include "steps/identification/imported_modes.hpp"
 #include "steps/identification/inputs.hpp"
 #include "steps/identification/outputs.hpp"
-#include "steps/identification/stay_tables.hpp"
 
 namespace {
 

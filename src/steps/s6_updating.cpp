@@ -6,7 +6,6 @@
 #include "steps/measured/measured_input.hpp"
 #include "steps/updating/inputs.hpp"
 #include "steps/updating/outputs.hpp"
-#include "steps/updating/weighing_tables.hpp"
 #include "updating/paired_modes.hpp"
 #include "updating/twins.hpp"
 

@@ -1,13 +1,8 @@
 /// Step 8 (paper sections 5.2 and 6, Tables 13, 14, Fig. 21): turbulent wind, accelerations with dampers, hybrid deployment.
-#include <utility>
-
-#include "runner/run_step.hpp"
-#include "steps/validation/inputs.hpp"
 #include "steps/validation/validation.hpp"
 
-using namespace twindeck;
-
 int main(int argc, char** argv) {
+  using namespace twindeck;
   steps::ValidationConfig config;
   runner::Step step;
   step.token = "s8_validation";
@@ -18,10 +13,6 @@ int main(int argc, char** argv) {
                    "--set turbulence_set='\"EN 0\"'"};
   step.fields = config.fields();
   step.configured_inputs = {"model", "campaign"};
-  step.read = [&config](runner::StepContext& context) -> runner::Computation {
-    return [&config, &context, read = steps::read_validation_inputs(config, context)] {
-      return steps::run_validation(config, read, context);
-    };
-  };
+  step.read = [&config](runner::StepContext& context) { return steps::read_validation(config, context); };
   return runner::run_step(argc, argv, std::move(step));
 }

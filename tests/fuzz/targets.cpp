@@ -9,7 +9,6 @@
 const std::vector<Target>& targets() {
   static const std::vector<Target> all = {
 #define TARGET(name) {#name, fuzz_##name},
-#include "fuzz_targets.inc"
 #undef TARGET
   };
   return all;

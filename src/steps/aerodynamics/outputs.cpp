@@ -12,18 +12,6 @@ namespace {
 
 const char* on_off(bool on) { return on ? "on" : "off"; }
 
-std::string word(aero::StaticRule rule) {
-  switch (rule) {
-    case aero::StaticRule::normal:
-      return "normal";
-    case aero::StaticRule::cosine:
-      return "cosine";
-    case aero::StaticRule::oblique_strip:
-      return "oblique_strip";
-  }
-  return "";
-}
-
 std::string status_of(const aero::CriticalRow& row, double max_speed_m_s) {
   const std::string found = row.point ? "unstable" : "stable up to " + io::format_number(max_speed_m_s) + " m/s";
   return row.lost.empty() ? found : found + "; " + row.lost;
@@ -105,7 +93,7 @@ void write_rules(const AerodynamicsConfig& config, const std::filesystem::path& 
                      "axes"});
   const auto put = [&](const std::string& deployment, const std::string& deck, std::optional<double> beyond,
                        const aero::YawRule& rule) {
-    csv.row({deployment, deck, beyond, rule.name, rule.group, rule.description, word(rule.statics), rule.lookup_power,
+    csv.row({deployment, deck, beyond, rule.name, rule.group, rule.description, name_of(rule.statics), rule.lookup_power,
              rule.inverse_power(0, 0), rule.inverse_power(0, 2), rule.inverse_power(2, 2),
              rule.axes == aero::ForceAxes::deck ? "deck" : "wind"});
   };

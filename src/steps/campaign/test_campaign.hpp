@@ -1,9 +1,15 @@
 #pragma once
 
+#include "io/config.hpp"
 #include "ponte/virtual_bridge/campaign_settings.hpp"
 #include "runner/run_step.hpp"
 
 namespace twindeck::steps {
+
+/// Configuration of s0_campaign.
+struct CampaignConfig : ponte::CampaignSettings {
+  [[nodiscard]] io::FieldTable fields();
+};
 
 /// s0_campaign: simulates the test campaign on the virtual bridge and writes what its loggers wrote,
 ///

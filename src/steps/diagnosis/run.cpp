@@ -7,7 +7,6 @@
 #include "diagnosis/files/measurement_corrections.hpp"
 #include "diagnosis/law_diagnosis.hpp"
 #include "diagnosis/paired_check.hpp"
-#include "steps/diagnosis/extension.hpp"
 #include "steps/diagnosis/outputs.hpp"
 #include "steps/diagnosis/setup.hpp"
 

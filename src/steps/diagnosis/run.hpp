@@ -1,7 +1,7 @@
 #pragma once
 
 #include "runner/run_step.hpp"
-#include "steps/diagnosis/config.hpp"
+#include "steps/diagnosis/setup.hpp"
 
 namespace twindeck::steps {
 

@@ -1,23 +1,13 @@
 #include "steps/identification/identification_config.hpp"
 
-#include <fmt/format.h>
-
 #include <optional>
 
-#include "core/error.hpp"
 #include "io/limits.hpp"
-#include "steps/shared/order_range.hpp"
+#include "steps/shared/config_parts.hpp"
 
 namespace twindeck::steps {
-namespace {
-
-/// The list grows while its elements are bound to fields: room is made before, so that they stay where they are.
-constexpr std::size_t kMostStays = 256;
-
-}  // namespace
 
 io::FieldTable IdentificationConfig::fields() {
-  stays.reserve(kMostStays);
   io::FieldTable table;
   table.text("setup", setup, "setup whose records are used; empty: all, merged over the reference channels")
       .texts("setups", setups, "setups that are merged; empty: all, or the one named by `setup`")
@@ -100,24 +90,19 @@ io::FieldTable IdentificationConfig::fields() {
               "stays: smallest frequency of the taut string that is thought of")
       .number("stay.highest", stay_highest_Hz, "Hz", io::non_negative(), "stays: largest; 0: any")
       .number("stay.level", stay_level, "", {0.5, 0.9999}, "probability of the intervals of tension and sag")
-      .tables(
-          "stay_length",
-          [this] {
-            if (stays.size() >= kMostStays)
-              throw InputError({"", 0, "stay_length"}, fmt::format("has more than {} entries", kMostStays), "");
-            stays.emplace_back();
-            identification::StaySettings& stay = stays.back();
-            io::FieldTable entry;
-            entry.text("name", stay.name, "setup, point or channel of the stay's records", true)
-                .number("length", stay.length_m, "m", io::positive(), "free length", true)
-                .choice("ends", stay.ends, {"unknown", "hinged", "clamped"},
-                        "how the ends are held; unknown: both are compared")
-                .number("bending_stiffness", stay.bending_stiffness_N_m2, "N m^2", io::non_negative(),
-                        "EI of the section, known to ten per cent; 0: fitted to the harmonics")
-                .number("mass", stay.mass_kg_m, "kg/m", io::non_negative(), "mass per length; wanted with bending_stiffness");
-            return entry;
-          },
-          "a stay's length; without one its tension can't be told", "name")
+      .tables("stay_length",
+              rows_of(stays,
+                      [](io::FieldTable& entry, identification::StaySettings& stay) {
+                        entry.text("name", stay.name, "setup, point or channel of the stay's records", true)
+                            .number("length", stay.length_m, "m", io::positive(), "free length", true)
+                            .choice("ends", stay.ends, {"unknown", "hinged", "clamped"},
+                                    "how the ends are held; unknown: both are compared")
+                            .number("bending_stiffness", stay.bending_stiffness_N_m2, "N m^2", io::non_negative(),
+                                    "EI of the section, known to ten per cent; 0: fitted to the harmonics")
+                            .number("mass", stay.mass_kg_m, "kg/m", io::non_negative(),
+                                    "mass per length; wanted with bending_stiffness");
+                      }),
+              "a stay's length; without one its tension can't be told", "name")
       .rule([this] { return orders_exchanged("", minimum_order, maximum_order); })
       .rule([this]() -> std::optional<io::FieldTable::Broken> {
         if (block_rows != 1) return std::nullopt;

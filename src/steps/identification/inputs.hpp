@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "identification/condition.hpp"
@@ -24,5 +25,11 @@ struct IdentificationInputs {
 /// @throws InputError  as read_campaign, record_groups, read_condition and condition_records
 [[nodiscard]] IdentificationInputs read_identification_inputs(const identification::IdentificationSettings& config,
                                                               runner::StepContext& context);
+
+/// Reads the modes of `--modes FILE`, a universal file of the program that identified them (universal_modes.hpp).
+/// @param std_pct  [%] standard deviation of each frequency, which the file does not hold; 0: stays empty
+/// @return writes modes.csv, shapes.csv and channels.csv, which every step takes by `--modes`; nothing without the option
+/// @throws InputError  for a folder, and as read_universal_modes
+[[nodiscard]] std::optional<runner::Computation> imported_modes(double std_pct, runner::StepContext& context);
 
 }  // namespace twindeck::steps

@@ -11,7 +11,7 @@
 #include "io/csv.hpp"
 #include "reliability/bridge_reliability.hpp"
 #include "steps/shared/model_source.hpp"
-#include "steps/wind/turbulence_files.hpp"
+#include "steps/wind/deck_files.hpp"
 
 namespace twindeck::steps {
 namespace {
@@ -69,9 +69,8 @@ reliability::RandomInput scattered(const std::string& name, double mean, double 
 }
 
 reliability::RandomInput stated(const StatedInput& input) {
-  reliability::RandomInput out{
-      input.name,  *reliability::law_kind(input.law), input.mean, input.deviation, std::nullopt, std::nullopt, input.label,
-      input.source};
+  reliability::RandomInput out = input;
+  out.kind = *reliability::law_kind(input.law);
   if (input.bounded) {
     out.low = input.low_value;
     out.high = input.high_value;
@@ -108,17 +107,12 @@ void read_wind_table(const StatedWindLaw& stated, double direction_deg, runner::
 std::optional<reliability::WindLaw> read_wind_law(const StatedWindLaw& stated, double direction_deg, double height_m,
                                                   runner::StepContext& context) {
   using Kind = reliability::WindLaw::Kind;
-  if (stated.kind == "none") return std::nullopt;
-  reliability::WindLaw law;
-  law.kind = stated.kind == "weibull"  ? Kind::weibull
-             : stated.kind == "table"  ? Kind::table
-             : stated.kind == "gumbel" ? Kind::gumbel
-                                       : Kind::code;
-  law.scale_m_s = stated.scale_m_s;
-  law.shape = stated.shape;
-  law.mode_m_s = stated.mode_m_s;
-  law.gumbel_scale_m_s = stated.gumbel_scale_m_s;
-  law.basic_m_s = stated.basic_m_s;
+  if (stated.kind_name == "none") return std::nullopt;
+  reliability::WindLaw law = stated;
+  law.kind = stated.kind_name == "weibull"  ? Kind::weibull
+             : stated.kind_name == "table"  ? Kind::table
+             : stated.kind_name == "gumbel" ? Kind::gumbel
+                                            : Kind::code;
   law.label = law.kind == Kind::code ? "code" : "user";
   if (law.kind == Kind::code) law.exposure = *reliability::roughness_factor(stated.terrain, height_m);
   if (law.kind == Kind::table) read_wind_table(stated, direction_deg, context, law);

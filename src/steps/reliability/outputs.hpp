@@ -18,6 +18,10 @@ struct Case {
   double years = 0.0;
   bool dampers = false;
   std::string fault;
+  /// "without dampers", "with dampers, C1 held".
+  [[nodiscard]] std::string words() const {
+    return (dampers ? "with dampers" : "without dampers") + (fault.empty() ? "" : ", " + fault);
+  }
   [[nodiscard]] bool same_but_years(const Case& other) const { return dampers == other.dampers && fault == other.fault; }
 };
 

@@ -295,10 +295,9 @@ void find_responses(const ReliabilityConfig& config, const ReliabilityInputs& re
       left_out += fmt::format("{}{:.4g}", left_out.empty() ? "" : ", ", speed);
       if (nearby) {
         context.warn(fmt::format(
-            "in year {:g} {}{} at {:.4g} m/s {} among the modes of step 8, and no mode that step 7 follows loses its damping "
+            "in year {:g} {} at {:.4g} m/s {} among the modes of step 8, and no mode that step 7 follows loses its damping "
             "below that speed: critical.csv does not know of it; raise followed_modes and n_modes of step 7",
-            s.of.years, s.of.dampers ? "with dampers" : "without dampers", s.of.fault.empty() ? "" : ", " + s.of.fault, speed,
-            moments.growth));
+            s.of.years, s.of.words(), speed, moments.growth));
       }
       continue;
     }
@@ -311,10 +310,10 @@ void find_responses(const ReliabilityConfig& config, const ReliabilityInputs& re
     if (s.of.years == 0.0) found.first.push_back({s.of, speed, std::move(moments)});
   }
   if (left_out.empty()) return;
-  context.warn(fmt::format(
-      "in year {:g} {}{} at {} m/s the bridge is unstable, or one deviation of an input away from it: crossings.csv, "
-      "responses.csv and fatigue.csv have no rows of it",
-      s.of.years, s.of.dampers ? "with dampers" : "without dampers", s.of.fault.empty() ? "" : ", " + s.of.fault, left_out));
+  context.warn(
+      fmt::format("in year {:g} {} at {} m/s the bridge is unstable, or one deviation of an input away from it: crossings.csv, "
+                  "responses.csv and fatigue.csv have no rows of it",
+                  s.of.years, s.of.words(), left_out));
 }
 
 /// What the years make of frequencies, forces and sections. Frequencies spread with the parameters, and with the rate of
@@ -456,10 +455,9 @@ Status run_reliability(const ReliabilityConfig& config, const ReliabilityInputs&
   for (const CriticalRow& row : found.critical) {
     if (!row.speed.speed_m_s) continue;
     context.say(fmt::format(
-        "year {:g}, model {} {}{}: critical speed {:.2f} m/s, deviation {:.1f} %, below {:.1f} m/s with "
+        "year {:g}, model {} {}: critical speed {:.2f} m/s, deviation {:.1f} %, below {:.1f} m/s with "
         "probability {:.3g}",
-        row.of.years, row.speed.model, row.of.dampers ? "with dampers" : "without dampers",
-        row.of.fault.empty() ? "" : ", " + row.of.fault, row.speed.speed_m_s->value, 100.0 * row.speed.speed_m_s->deviation(),
+        row.of.years, row.speed.model, row.of.words(), row.speed.speed_m_s->value, 100.0 * row.speed.speed_m_s->deviation(),
         read.aerodynamics.design_speed_m_s, row.speed.probability_below(read.aerodynamics.design_speed_m_s)));
   }
   return {};

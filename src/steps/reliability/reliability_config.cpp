@@ -1,22 +1,13 @@
 #include "steps/reliability/reliability_config.hpp"
 
 #include "io/limits.hpp"
+#include "steps/shared/config_parts.hpp"
 
 namespace twindeck::steps {
 
 namespace {
 
-/// What makes the fields of a new row of a list.
-template <typename Row, typename Fields>
-auto new_row(std::vector<Row>& rows, const Fields& fields) {
-  return [&rows, fields] {
-    io::FieldTable t;
-    fields(rows.emplace_back(), t);
-    return t;
-  };
-}
-
-void add_wall(StatedWall& wall, io::FieldTable& t) {
+void add_wall(io::FieldTable& t, StatedWall& wall) {
   t.texts("sections", wall.sections, "sections of sections.csv that corrode alike")
       .number("thickness", wall.thickness_m, "m", {0.0, 10.0},
               "thickness of the wall; 0: round ropes or rods, or a shell's own")
@@ -27,18 +18,18 @@ void add_wall(StatedWall& wall, io::FieldTable& t) {
       .number("coating_life_years", wall.coating_life_years, "", {0.0, 1000.0}, "years until the coating is gone");
 }
 
-void add_fault(StatedFault& fault, io::FieldTable& t) {
+void add_fault(io::FieldTable& t, StatedFault& fault) {
   t.text("damper", fault.damper, "name of the damper in springs.csv", true)
       .choice("kind", fault.kind, {"held", "lost"}, "held by static friction, or taken out");
 }
 
-void add_comfort(StatedComfort& limit, io::FieldTable& t) {
+void add_comfort(io::FieldTable& t, StatedComfort& limit) {
   t.text("name", limit.name, "of the guideline or of your own", true)
       .number("vertical", limit.vertical_m_s2, "m/s2", {0.0, 100.0}, "limit of the vertical acceleration; 0: none")
       .number("lateral", limit.lateral_m_s2, "m/s2", {0.0, 100.0}, "limit of the lateral acceleration; 0: none");
 }
 
-void add_random(StatedInput& input, io::FieldTable& t) {
+void add_random(io::FieldTable& t, StatedInput& input) {
   t.text("name", input.name, "\"parameter:NAME\" of the model, or one of the four above by its name in random.csv", true)
       .choice("law", input.law, {"normal", "lognormal", "uniform", "gumbel", "weibull"}, "law of the input")
       .number("mean", input.mean, "", {-1e300, 1e300}, "mean, in the input's own unit", true)
@@ -54,10 +45,10 @@ void add_tables(ReliabilityConfig& config, io::FieldTable& t) {
   t.texts("rare", config.rare,
           "limit states of crossings.csv whose excursion is also found by FORM and by subset simulation (rare.csv)")
       .numbers("years", config.years, "", {0.0, 1000.0}, "years in service that are computed, the first of them 0")
-      .tables("wall", new_row(config.walls, add_wall), "sections that lose thickness")
-      .tables("fault", new_row(config.faults, add_fault), "one damper at fault: a further case with dampers")
-      .tables("comfort", new_row(config.comfort, add_comfort), "comfort limits beside those of step 8", "name")
-      .choice("wind_law.kind", config.wind_law.kind, {"none", "weibull", "table", "gumbel", "code"},
+      .tables("wall", rows_of(config.walls, add_wall), "sections that lose thickness")
+      .tables("fault", rows_of(config.faults, add_fault), "one damper at fault: a further case with dampers")
+      .tables("comfort", rows_of(config.comfort, add_comfort), "comfort limits beside those of step 8", "name")
+      .choice("wind_law.kind", config.wind_law.kind_name, {"none", "weibull", "table", "gumbel", "code"},
               "your law of the mean wind at the deck: weibull and table hold all ten-minute means, gumbel and code the largest "
               "of a year; none: no annual figure")
       .number("wind_law.scale", config.wind_law.scale_m_s, "m/s", io::non_negative(), "weibull: scale")
@@ -77,10 +68,6 @@ void add_tables(ReliabilityConfig& config, io::FieldTable& t) {
 }  // namespace
 
 io::FieldTable ReliabilityConfig::fields() {
-  walls.reserve(256);
-  faults.reserve(256);
-  comfort.reserve(256);
-  random.reserve(256);  // rows are bound to their fields, so they must not move
   const io::Range variation = {0.0, 2.0};
   io::FieldTable t;
   t.numbers("speeds", speed_m_s, "m/s", {0.0, io::highest_wind_m_s, true}, "mean wind speeds of the fragility curves")
@@ -99,7 +86,7 @@ io::FieldTable ReliabilityConfig::fields() {
               "coefficient of variation of the dampers' constants (lognormal about 1); paper, Table 1: 5 %")
       .number("turbulence_variation", turbulence_variation, "", variation,
               "coefficient of variation of the turbulence intensity (lognormal about 1); assumed")
-      .tables("random", new_row(random, add_random),
+      .tables("random", rows_of(random, add_random),
               "a random input of your own: it replaces the one of the same name, or adds a parameter of the model", "name")
       .number("corrosion_variation", corrosion_variation, "", variation,
               "coefficient of variation of the rate of corrosion (lognormal about 1); assumed")

@@ -1,20 +1,20 @@
 #pragma once
 
-#include <optional>
 #include <string>
 #include <vector>
 
 #include "io/config.hpp"
+#include "reliability/random_inputs.hpp"
+#include "reliability/wind_law.hpp"
 
 namespace twindeck::steps {
 
 /// A random input as the configuration states it.
-struct StatedInput {
-  std::string name, law = "normal", label = "user", source;
-  double mean = 0.0, deviation = 0.0;
-  std::optional<double> low, high;
+struct StatedInput : reliability::RandomInput {
+  std::string law = "normal";
   double low_value = 0.0, high_value = 0.0;  ///< where `bounded` says that the law is cut
   bool bounded = false;
+  StatedInput() { label = "user"; }
 };
 
 /// Sections that corrode alike.
@@ -36,9 +36,9 @@ struct StatedFault {
   std::string damper, kind = "held";
 };
 
-struct StatedWindLaw {
-  std::string kind = "none", terrain = "II", file;
-  double scale_m_s = 0.0, shape = 2.0, mode_m_s = 0.0, gumbel_scale_m_s = 0.0, basic_m_s = 0.0, sector_deg = 90.0;
+struct StatedWindLaw : reliability::WindLaw {
+  std::string kind_name = "none", terrain = "II", file;
+  double sector_deg = 90.0;
 };
 
 /// Configuration of s10_reliability. Decks, data and wind direction are those of s7_aerodynamics.toml; height, turbulence,

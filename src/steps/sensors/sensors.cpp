@@ -14,8 +14,8 @@
 #include "sensors/score.hpp"
 #include "sensors/setup_scores.hpp"
 #include "steps/layout/layout_files.hpp"
+#include "steps/shared/config_parts.hpp"
 #include "steps/shared/model_source.hpp"
-#include "steps/shared/order_range.hpp"
 
 namespace twindeck::steps {
 namespace fs = std::filesystem;
@@ -114,14 +114,16 @@ void write_blind_test(const SensorsConfig& config, const sensors::BlindTestResul
     std::vector<bool> taken(test.modes.size(), false);
     for (Index m = 0; m < frequency_Hz.size(); ++m) {
       const VectorXd shape = phi(setup.rows, m);
+      const auto mac = [&](std::size_t k) {
+        const Eigen::VectorXcd& found = test.modes[k].shape;
+        return std::norm(found.dot(shape.cast<std::complex<double>>())) / (found.squaredNorm() * shape.squaredNorm());
+      };
       double best = -1.0;
       std::size_t at = 0;
       for (std::size_t k = 0; k < test.modes.size(); ++k) {
         const double distance = std::abs(test.modes[k].frequency_Hz / frequency_Hz[m] - 1.0);
-        const double mac = std::norm(test.modes[k].shape.dot(shape.cast<std::complex<double>>())) /
-                           (test.modes[k].shape.squaredNorm() * shape.squaredNorm());
-        if (!taken[k] && distance < 0.05 && mac - 10.0 * distance > best) {
-          best = mac - 10.0 * distance;
+        if (const double merit = mac(k) - 10.0 * distance; !taken[k] && distance < 0.05 && merit > best) {
+          best = merit;
           at = k;
         }
       }
@@ -132,10 +134,8 @@ void write_blind_test(const SensorsConfig& config, const sensors::BlindTestResul
       }
       taken[at] = true;
       const identification::Cluster& mode = test.modes[at];
-      const double mac =
-          std::norm(mode.shape.dot(shape.cast<std::complex<double>>())) / (mode.shape.squaredNorm() * shape.squaredNorm());
       csv.row({test.setup, static_cast<long>(m + 1), frequency_Hz[m], zeta, 1, mode.frequency_Hz, 100.0 * mode.damping_ratio,
-               100.0 * (mode.frequency_Hz / frequency_Hz[m] - 1.0), 100.0 * mode.damping_ratio - zeta, mac,
+               100.0 * (mode.frequency_Hz / frequency_Hz[m] - 1.0), 100.0 * mode.damping_ratio - zeta, mac(at),
                mode.members.size()});
     }
     for (std::size_t k = 0; k < test.modes.size(); ++k) {

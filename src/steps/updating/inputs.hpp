@@ -4,11 +4,17 @@
 #include <vector>
 
 #include "dynamics/loaded_model.hpp"
+#include "io/config.hpp"
 #include "matching/measured.hpp"
 #include "runner/run_step.hpp"
-#include "steps/updating/updating_config.hpp"
+#include "updating/updating_settings.hpp"
 
 namespace twindeck::steps {
+
+/// Configuration of s6_updating.
+struct UpdatingConfig : updating::UpdatingSettings {
+  [[nodiscard]] io::FieldTable fields();
+};
 
 /// What the step reads.
 struct UpdatingInputs {

@@ -16,10 +16,6 @@ namespace {
 
 constexpr std::size_t kBeforeMeasured = 12;  ///< columns of rms.csv before the measured side
 
-std::string word(aero::StaticRule rule) {
-  return rule == aero::StaticRule::normal ? "normal" : rule == aero::StaticRule::cosine ? "cosine" : "oblique_strip";
-}
-
 }  // namespace
 
 void write_rms(const std::vector<buffeting::RunResult>& results, const buffeting::BridgeInWind& bridge,
@@ -136,7 +132,7 @@ void write_hybrid(const buffeting::BridgeInWind& bridge, const std::filesystem::
       const auto put = [&](const std::string& name, double from, double to) {
         const aero::YawRule& rule = deployment.at(zone.deck, 0.5 * (from + to) / degrees);
         const auto inside = std::count_if(yaw.begin(), yaw.end(), [&](double y) { return y >= from && y <= to; });
-        zones.row({zone.deck, from, to, name, rule.name, word(rule.statics), rule.lookup_power, rule.inverse_power(1, 1),
+        zones.row({zone.deck, from, to, name, rule.name, name_of(rule.statics), rule.lookup_power, rule.inverse_power(1, 1),
                    static_cast<long>(inside)});
       };
       if (lowest < -zone.beyond_deg) put("end", lowest, -zone.beyond_deg);

@@ -8,7 +8,7 @@
 #include "buffeting/paper_statements.hpp"
 #include "buffeting/simulated_runs.hpp"
 #include "buffeting/time_checks.hpp"
-#include "steps/validation/measured.hpp"
+#include "steps/validation/validation.hpp"
 
 /// What s8_validation writes.
 namespace twindeck::steps {

@@ -6,6 +6,7 @@
 
 #include "core/error.hpp"
 #include "io/limits.hpp"
+#include "steps/shared/config_parts.hpp"
 
 namespace twindeck::steps {
 namespace {
@@ -39,26 +40,23 @@ io::FieldTable AerodynamicsConfig::fields() {
       .number("attack_deg", attack_deg, "", {-45.0, 45.0},
               "angle of attack of the wind itself (beta_2 of Fig. 17), degrees, nose-up")
       .integer("nodes_per_deck", nodes_per_deck, {2.0, 1000.0}, "aerodynamic nodes between the end stays of each deck")
-      .tables(
-          "deck",
-          [this] {
-            decks.emplace_back();
-            aero::DeckWind& deck = decks.back();
-            io::FieldTable d;
-            d.text("name", deck.name, "name of the deck", true)
-                .text("cross_group", deck.cross_group,
-                      "group of the elements across the deck, where the model names no aerodynamic nodes")
-                .number("chord", deck.chord_m, "m", io::positive(), "chord B", true)
-                .text("polar", deck.polar, "file of static coefficients", true)
-                .text("flutter", deck.flutter, "file of flutter derivatives; empty: the polar alone, for the set quasi_steady")
-                .number("arm_drag", deck.arm_drag, "", {}, "quasi-steady p2*/p1*")
-                .number("arm_lift", deck.arm_lift, "", {}, "quasi-steady h2*/h1*")
-                .number("arm_moment", deck.arm_moment, "", {}, "quasi-steady a2*/a1*")
-                .texts("exceptions", deck.exceptions,
-                       "laws that the data break, each with its reason: \"quasi_steady: only h1 was measured\"");
-            return d;
-          },
-          "a deck's aerodynamic data", "name")
+      .tables("deck",
+              rows_of(decks,
+                      [](io::FieldTable& d, aero::DeckWind& deck) {
+                        d.text("name", deck.name, "name of the deck", true)
+                            .text("cross_group", deck.cross_group,
+                                  "group of the elements across the deck, where the model names no aerodynamic nodes")
+                            .number("chord", deck.chord_m, "m", io::positive(), "chord B", true)
+                            .text("polar", deck.polar, "file of static coefficients", true)
+                            .text("flutter", deck.flutter,
+                                  "file of flutter derivatives; empty: the polar alone, for the set quasi_steady")
+                            .number("arm_drag", deck.arm_drag, "", {}, "quasi-steady p2*/p1*")
+                            .number("arm_lift", deck.arm_lift, "", {}, "quasi-steady h2*/h1*")
+                            .number("arm_moment", deck.arm_moment, "", {}, "quasi-steady a2*/a1*")
+                            .texts("exceptions", deck.exceptions,
+                                   "laws that the data break, each with its reason: \"quasi_steady: only h1 was measured\"");
+                      }),
+              "a deck's aerodynamic data", "name")
       .choice("below_range", below_range, {"refuse", "hold"}, "what a derivative table does below its reduced velocities")
       .choice("above_range", above_range, {"refuse", "hold"}, "what a derivative table does above its reduced velocities")
       .texts("sets", sets,
@@ -69,17 +67,14 @@ io::FieldTable AerodynamicsConfig::fields() {
       .choices("models", models, all_models(), "models of Table 11")
       .choice("hybrid_inner", hybrid_inner, published, "model of Table 14 at the decks' middle")
       .choice("hybrid_outer", hybrid_outer, published, "model of Table 14 towards the ends")
-      .tables(
-          "hybrid",
-          [this] {
-            hybrid.emplace_back();
-            io::FieldTable d;
-            d.text("deck", hybrid.back().deck, "name of the deck", true)
-                .number("beyond_deg", hybrid.back().beyond_deg, "", {0.0, 90.0},
-                        "yaw beyond which the outer model holds, degrees", true);
-            return d;
-          },
-          "Table 14, a deck", "deck")
+      .tables("hybrid",
+              rows_of(hybrid,
+                      [](io::FieldTable& d, aero::HybridZone& zone) {
+                        d.text("deck", zone.deck, "name of the deck", true)
+                            .number("beyond_deg", zone.beyond_deg, "", {0.0, 90.0},
+                                    "yaw beyond which the outer model holds, degrees", true);
+                      }),
+              "Table 14, a deck", "deck")
       .number("structural_damping", structural_damping, "", {0.0, 0.2}, "damping ratio of each mode without wind")
       .number("identified_damping", identified_damping, "", {0.0, 0.2}, "damping ratio of mode 1 as identified, for comparison")
       .integer("n_modes", n_modes, {1.0, 200.0}, "modes of the reduced structure")

@@ -5,6 +5,8 @@
 #include "aero/wind_model.hpp"
 #include "runner/run_step.hpp"
 #include "steps/wind/aerodynamics_config.hpp"
+#include "steps/wind/validation_config.hpp"
+#include "wind/turbulence.hpp"
 
 /// The files of aerodynamic data that a configuration of step 7 names; steps 0, 7, 8 and 10 read them.
 namespace twindeck::steps {
@@ -22,5 +24,10 @@ namespace twindeck::steps {
 /// The level that step 7 fitted for a set, from its sets.csv.
 /// @throws InputError  for a set that it does not have, with those that it has
 [[nodiscard]] double fitted_level(runner::StepContext& context, const std::string& set);
+
+/// The turbulence that a configuration of step 8 names: its set, with its spectrum, its coherence and its decays. Steps 8 and
+/// 10 read it alike.
+/// @param context  registers the files as inputs
+[[nodiscard]] wind::TurbulenceSet read_turbulence(const ValidationConfig& config, runner::StepContext& context);
 
 }  // namespace twindeck::steps

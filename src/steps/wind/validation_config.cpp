@@ -3,9 +3,9 @@
 #include <fmt/format.h>
 
 #include <optional>
-#include <utility>
 
 #include "io/limits.hpp"
+#include "steps/shared/config_parts.hpp"
 
 namespace twindeck::steps {
 namespace {
@@ -68,8 +68,6 @@ void add_turbulence(io::FieldTable& t, ValidationConfig& c) {
 }  // namespace
 
 io::FieldTable ValidationConfig::fields() {
-  events.reserve(64);  // rows are bound to their fields, so they must not move
-  runs.reserve(64);
   io::FieldTable t;
   t.text("aerodynamics", aerodynamics,
          "configuration of step 7, whose decks, data, wind direction and damping hold here; empty: the study's")
@@ -92,30 +90,25 @@ io::FieldTable ValidationConfig::fields() {
       .choice("equations", equations, {"consistent", "as_printed"}, "Eq. (10) with signs that can hold together, or as printed")
       .tables(
           "event",
-          [this] {
-            events.emplace_back();
-            buffeting::WindEvent& event = events.back();
-            io::FieldTable e;
-            e.text("name", event.name, "name of the event", true)
-                .number("speed", event.speed_m_s, "m/s", {0.0, io::highest_wind_m_s, true},
+          rows_of(
+              events,
+              [](io::FieldTable& e, buffeting::WindEvent& event) {
+                e.text("name", event.name, "name of the event", true)
+                    .number(
+                        "speed", event.speed_m_s, "m/s", {0.0, io::highest_wind_m_s, true},
                         "mean speed at the decks; a run in which a mode grows at this speed has empty results and a warning",
                         true)
-                .text("condition", event.condition,
-                      "condition of the campaign whose wind records are the measured side; empty: none");
-            return e;
-          },
+                    .text("condition", event.condition,
+                          "condition of the campaign whose wind records are the measured side; empty: none");
+              }),
           "a wind event", "name")
-      .tables(
-          "run",
-          [this] {
-            runs.emplace_back();
-            buffeting::ValidationRun& run = runs.back();
-            io::FieldTable r;
-            r.text("name", run.name, "name of the simulation", true)
-                .text("model", run.model, "model of Table 11 (A, C, D, G, H, I), or hybrid", true);
-            return r;
-          },
-          "a numerical simulation of Table 13", "name")
+      .tables("run",
+              rows_of(runs,
+                      [](io::FieldTable& r, buffeting::ValidationRun& run) {
+                        r.text("name", run.name, "name of the simulation", true)
+                            .text("model", run.model, "model of Table 11 (A, C, D, G, H, I), or hybrid", true);
+                      }),
+              "a numerical simulation of Table 13", "name")
       .number("comfort_vertical", comfort_vertical_m_s2, "m/s^2", io::positive(),
               "comfort limit of vertical acceleration (EN 1990 A2.4.3.2)")
       .number("comfort_lateral", comfort_lateral_m_s2, "m/s^2", io::positive(),

@@ -1,11 +1,24 @@
 #pragma once
 
+#include <functional>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "io/config.hpp"
 
+/// Parts of configurations that several steps have.
 namespace twindeck::steps {
+
+/// The rows of a list for FieldTable::tables. @param bind  adds the fields of a new row: bind(table, row)
+template <typename Row, typename Bind>
+[[nodiscard]] std::function<io::FieldTable()> rows_of(std::vector<Row>& rows, Bind bind) {
+  return [&rows, bind] {
+    io::FieldTable table;
+    bind(table, rows.emplace_back());
+    return table;
+  };
+}
 
 /// The rule of an identification's keys `minimum_order` and `maximum_order`: the smallest model order is not above the largest.
 /// @param above  what stands before the two keys ("blind."), or ""
