@@ -16,6 +16,13 @@ Eigen::VectorXd ResidualDefinition::theta(const Eigen::VectorXd& x) const {
   return values;
 }
 
+dynamics::EigenModes ResidualDefinition::modes_at(const Eigen::VectorXd& x, dynamics::ModalSolver& solver, int& solves) const {
+  const Eigen::VectorXd values = theta(x);
+  if (start && &solver.system() == start->system.get() && values == start->theta) return start->modes;
+  ++solves;
+  return solver.solve(values, n_modes);
+}
+
 double ResidualDefinition::residual_unit(const Eigen::MatrixXd& jacobian) const {
   const double norm = jacobian.norm();
   return weighted && norm > 0.0 ? norm : 1.0;
@@ -43,10 +50,13 @@ const Evaluation& ModalResiduals::at(const Eigen::VectorXd& x, bool with_jacobia
   return *known;
 }
 
+void ModalResiduals::find_modes(const Eigen::VectorXd& x) {
+  modes_ = definition_.modes_at(x, solver_, solves_);
+  modes_x_ = x;
+}
+
 void ModalResiduals::solve(Evaluation& evaluation) {
-  modes_ = solver_.solve(definition_.theta(evaluation.x), definition_.n_modes);
-  modes_x_ = evaluation.x;
-  ++solves_;
+  find_modes(evaluation.x);
   if (!modes_.status.converged) return;
   const matching::FollowedModes followed = definition_.follower->follow(modes_.shapes);
   const auto n = static_cast<Eigen::Index>(definition_.targets.size());
@@ -68,11 +78,7 @@ void ModalResiduals::solve(Evaluation& evaluation) {
 }
 
 void ModalResiduals::differentiate(Evaluation& evaluation) {
-  if (modes_x_ != evaluation.x) {  // the modes of an older point are gone
-    modes_ = solver_.solve(definition_.theta(evaluation.x), definition_.n_modes);
-    modes_x_ = evaluation.x;
-    ++solves_;
-  }
+  if (modes_x_ != evaluation.x) find_modes(evaluation.x);  // the modes of an older point are gone
   const Eigen::MatrixXd all = sensitivity::frequency_jacobian(*system_, definition_.theta(evaluation.x), modes_);
   if (definition_.weighted) return differentiate_weighted(evaluation, all);
   const auto n = static_cast<Eigen::Index>(definition_.targets.size());

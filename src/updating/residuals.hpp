@@ -14,6 +14,13 @@
 
 namespace twindeck::updating {
 
+/// Modes of the start model, which each search begins with or compares with.
+struct StartModes {
+  std::shared_ptr<const fe::ParametricSystem> system;  ///< prestress of the initial values
+  Eigen::VectorXd theta;                               ///< (n_parameters) initial values
+  dynamics::EigenModes modes;
+};
+
 /// Definition of the updating problem, the same for every start and every prestress: targets, parameters, reference modes.
 struct ResidualDefinition {
   std::vector<FrequencyTarget> targets;
@@ -22,11 +29,14 @@ struct ResidualDefinition {
   Eigen::VectorXd scale;    ///< (n_active) parameter = scale · x: the initial value's size, or the range where it is 0
   int n_modes = 0;          ///< modes solved for
   std::shared_ptr<const matching::ModeFollower> follower;
+  std::shared_ptr<const StartModes> start;       ///< null: solved for where they are needed
   std::shared_ptr<const WeightedRows> weighted;  ///< null: relative frequencies, Eq. (5)
   Prior prior;                                   ///< of the parameters, whose rows come behind the others; none by default
 
   /// All parameters at normalised values of the active ones.
   [[nodiscard]] Eigen::VectorXd theta(const Eigen::VectorXd& x) const;
+  /// Those of the start model where they are known, else solved for. @param solves  counts the solutions
+  [[nodiscard]] dynamics::EigenModes modes_at(const Eigen::VectorXd& x, dynamics::ModalSolver& solver, int& solves) const;
   [[nodiscard]] int n_residuals() const {
     return (weighted ? weighted->size() : static_cast<int>(targets.size())) + static_cast<int>(prior.mean.size());
   }
@@ -70,6 +80,7 @@ class ModalResiduals {
   [[nodiscard]] int solves() const { return solves_; }
 
  private:
+  void find_modes(const Eigen::VectorXd& x);
   void solve(Evaluation& evaluation);
   void differentiate(Evaluation& evaluation);
   /// Replaces the residuals by those of the weighed rows. @return false if a mode of a span is lost

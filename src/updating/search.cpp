@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 
 #include "updating/optimality.hpp"
 #include "updating/problem.hpp"
@@ -27,6 +28,7 @@ ResidualFunction as_function(ModalResiduals& residuals) {
 }
 
 SharedSystem refreshed(const Search& search, const Eigen::VectorXd& x) {
+  if (const auto& start = search.definition.start; start && search.definition.theta(x) == start->theta) return start->system;
   return std::make_shared<const fe::ParametricSystem>(search.refresh(search.definition.theta(x)));
 }
 
@@ -82,9 +84,23 @@ Box box_about(const Eigen::VectorXd& x, const Box& box, double reach) {
   return {box.lower.cwiseMax((x.array() - reach).matrix()), box.upper.cwiseMin((x.array() + reach).matrix())};
 }
 
+// The optimum of the reduced system inside a box, corrected to agree with the full one at `full`. The prestress follows once:
+// it is found anew at a first optimum, so that the full system finds little of its change left at the second. A full solution
+// costs several times what the prestress does. Empty if the reduced system lacks a mode.
+std::optional<Eigen::VectorXd> reduced_optimum(const Search& search, const SharedSystem& system, const Evaluation& full,
+                                               const Box& box, const BoundedOptions& options) {
+  const int n_residuals = search.definition.n_residuals();
+  const ReducedSystem reduced(system, search.surrogate.basis, search.surrogate.initial.get());
+  const CorrectedResiduals corrected(reduced, search.definition, search.surrogate, full);
+  if (!corrected.valid()) return {};
+  const Eigen::VectorXd first = minimise_on_box(corrected, n_residuals, full.x, box, options, {}).x;
+  if (!search.refresh || first == full.x) return first;
+  const ReducedSystem followed(refreshed(search, first), search.surrogate.basis, search.surrogate.initial.get());
+  return minimise_on_box(corrected.of(followed), n_residuals, first, box, options, {}).x;
+}
+
 // The search on the corrected reduced system. Leaves x at the best point so far, and says whether it has converged there.
 bool search_reduced(const Search& search, Eigen::VectorXd& x, double& reference, int start, SearchEnd& out) {
-  const int n_residuals = search.definition.n_residuals();
   StartResult& result = out.result;
   Eigen::VectorXd next = x;
   double cost = std::numeric_limits<double>::infinity(), reach = std::numeric_limits<double>::infinity();
@@ -122,13 +138,10 @@ bool search_reduced(const Search& search, Eigen::VectorXd& x, double& reference,
       return true;
     }
     // 2. The next point from the reduced system, corrected to agree with the full one here.
-    const ReducedSystem reduced(system, search.surrogate.basis, search.surrogate.initial.get());
-    const CorrectedResiduals corrected(reduced, search.definition, search.surrogate, full);
-    if (!corrected.valid()) return false;
     const Box box = std::isfinite(reach) ? box_about(x, search.box, reach) : search.box;
-    const BoundedOptions options = bounded_options(search, 0.1 * reference, full.jacobian);
-    next = minimise_on_box(corrected, n_residuals, x, box, options, {}).x;
-    if (next == x) return false;
+    const auto optimum = reduced_optimum(search, system, full, box, bounded_options(search, 0.1 * reference, full.jacobian));
+    if (!optimum || *optimum == x) return false;
+    next = *optimum;
   }
   return false;
 }

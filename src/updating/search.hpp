@@ -33,11 +33,12 @@ struct SearchEnd {
 /// @param points (n_active × n_points) where snapshots are taken
 [[nodiscard]] Surrogate make_surrogate(const Search& search, const Eigen::MatrixXd& points);
 
-/// The whole search from `first`. With a surrogate, the full system is solved once for each prestress state. Its value and
-/// Jacobian correct the reduced system, on which the search continues. The search ends when the projected gradient of the full
-/// system, with the prestress of the same point, is below the tolerance. Without a surrogate, or if that search does not
-/// converge, bounded solves run on the full system at frozen prestress. The prestress is computed anew between them, until no
-/// parameter changes by more than the tolerance.
+/// The whole search from `first`. With a surrogate, the full system is solved once at each point. Its value and Jacobian
+/// correct the reduced system, on which the search continues. Where that ends the prestress is found anew, and the search on
+/// the reduced system continues once more to the next point. The search ends when the projected gradient of the full system,
+/// with the prestress of the same point, is below the tolerance. Without a surrogate, or if that search does not converge,
+/// bounded solves run on the full system at frozen prestress. The prestress is computed anew between them, until no parameter
+/// changes by more than the tolerance.
 [[nodiscard]] SearchEnd run_start(const Search& search, const Eigen::VectorXd& first, int start);
 
 /// Residuals at normalised parameters x, with the prestress of x.

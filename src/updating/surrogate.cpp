@@ -49,9 +49,9 @@ std::shared_ptr<const MatrixXd> modal_basis(const std::shared_ptr<const fe::Para
   MatrixXd answers;
   parallel_for(n_points, [&](int k) {
     dynamics::ModalSolver solver(*system);
-    const VectorXd theta = definition.theta(points.col(k));
-    modes[static_cast<std::size_t>(k)] = solver.solve(theta, definition.n_modes);
-    if (k == 0) answers = static_answers(*system, definition, theta, modes.front());
+    int solves = 0;
+    modes[static_cast<std::size_t>(k)] = definition.modes_at(points.col(k), solver, solves);
+    if (k == 0) answers = static_answers(*system, definition, definition.theta(points.col(k)), modes.front());
   });
   if (!modes.front().status.converged) return nullptr;
   MatrixXd vectors = answers;
@@ -64,7 +64,7 @@ std::shared_ptr<const MatrixXd> modal_basis(const std::shared_ptr<const fe::Para
 
 CorrectedResiduals::CorrectedResiduals(const ReducedSystem& reduced, const ResidualDefinition& definition,
                                        const Surrogate& surrogate, const Evaluation& full)
-    : reduced_(reduced),
+    : reduced_(&reduced),
       definition_(definition),
       surrogate_(surrogate),
       centre_(full.x),
@@ -104,14 +104,14 @@ bool CorrectedResiduals::weighted_at(const Modes& modes, const VectorXd& theta, 
   }
   if (jacobian != nullptr) {
     const VectorXd lambda = modes.lambda(modes.mode);
-    const MatrixXd slope = reduced_.eigenvalue_derivatives(theta, definition_.active, lambda, modes.z(Eigen::all, modes.mode));
+    const MatrixXd slope = reduced_->eigenvalue_derivatives(theta, definition_.active, lambda, modes.z(Eigen::all, modes.mode));
     const VectorXd per_eigenvalue =
         (8.0 * std::numbers::pi * std::numbers::pi * computed.frequency_Hz.array()).inverse().matrix();
     computed.frequency_slope = per_eigenvalue.asDiagonal() * slope * definition_.scale.asDiagonal();
     for (Index j = 0; rows.has_shapes() && j < definition_.scale.size(); ++j)
       computed.shape_slope.push_back(definition_.scale[j] * surrogate_.channels.transpose() *
-                                     reduced_.shape_derivatives(theta, definition_.active[static_cast<std::size_t>(j)],
-                                                                modes.lambda, modes.z, modes.kept));
+                                     reduced_->shape_derivatives(theta, definition_.active[static_cast<std::size_t>(j)],
+                                                                 modes.lambda, modes.z, modes.kept));
   }
   const WeightedEvaluation weighted = rows.evaluate(computed, jacobian != nullptr);
   residual = weighted.residual;
@@ -127,7 +127,7 @@ bool CorrectedResiduals::reduced_at(const VectorXd& x, VectorXd& residual, Matri
 
 bool CorrectedResiduals::rows_at(const VectorXd& x, VectorXd& residual, MatrixXd* jacobian) const {
   const VectorXd theta = definition_.theta(x);
-  const MatrixXd k = reduced_.stiffness(theta), m = reduced_.mass(theta);
+  const MatrixXd k = reduced_->stiffness(theta), m = reduced_->mass(theta);
   const Eigen::GeneralizedSelfAdjointEigenSolver<MatrixXd> eig(k, m);
   if (eig.info() != Eigen::Success) return false;
   const Index n_modes = std::min<Index>(definition_.n_modes, k.cols());
@@ -152,7 +152,7 @@ bool CorrectedResiduals::rows_at(const VectorXd& x, VectorXd& residual, MatrixXd
     return weighted_at({eig.eigenvalues(), eig.eigenvectors(), n_modes, mode, followed.position}, theta, residual, jacobian);
   if (jacobian == nullptr) return true;
   const MatrixXd slope =
-      reduced_.eigenvalue_derivatives(theta, definition_.active, lambda(mode), MatrixXd(z(Eigen::all, mode)));
+      reduced_->eigenvalue_derivatives(theta, definition_.active, lambda(mode), MatrixXd(z(Eigen::all, mode)));
   jacobian->setZero(n, definition_.scale.size());
   for (Index i = 0; i < n; ++i) {
     if (!definition_.targets[static_cast<std::size_t>(i)].fitted) continue;

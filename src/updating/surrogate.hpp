@@ -35,6 +35,12 @@ class CorrectedResiduals {
                      const Evaluation& full);
   /// Whether the reduced system has the modes at x_k.
   [[nodiscard]] bool valid() const { return valid_; }
+  /// The same corrections of another reduced system, which must outlive the result.
+  [[nodiscard]] CorrectedResiduals of(const ReducedSystem& reduced) const {
+    CorrectedResiduals other = *this;
+    other.reduced_ = &reduced;
+    return other;
+  }
   /// A ResidualFunction.
   bool operator()(const Eigen::VectorXd& x, Eigen::VectorXd& residual, Eigen::MatrixXd* jacobian) const;
 
@@ -45,7 +51,7 @@ class CorrectedResiduals {
   bool reduced_at(const Eigen::VectorXd& x, Eigen::VectorXd& residual, Eigen::MatrixXd* jacobian) const;
   bool rows_at(const Eigen::VectorXd& x, Eigen::VectorXd& residual, Eigen::MatrixXd* jacobian) const;  ///< without the prior
 
-  const ReducedSystem& reduced_;
+  const ReducedSystem* reduced_;
   const ResidualDefinition& definition_;
   const Surrogate& surrogate_;
   Eigen::VectorXd centre_, shift_;

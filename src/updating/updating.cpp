@@ -206,6 +206,7 @@ UpdatingResult update(const fe::ParametricSystem& start, const Refresh& refresh,
     return result;
   }
   definition.follower = std::make_shared<const matching::ModeFollower>(solver.mass(), reference);
+  definition.start = std::make_shared<const StartModes>(StartModes{search.initial_system, definition.initial, reference});
   result.frequency_before_Hz.resize(static_cast<Eigen::Index>(targets.size()));
   for (std::size_t i = 0; i < targets.size(); ++i) {
     result.frequency_before_Hz(static_cast<Eigen::Index>(i)) = reference.frequency_Hz(targets[i].reference_mode);

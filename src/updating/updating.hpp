@@ -128,10 +128,10 @@ using Refresh = std::function<fe::ParametricSystem(const Eigen::VectorXd& theta)
 /// prestress is computed anew at its end point and the search continues from there, until no parameter changes by more than
 /// options.outer_tolerance. The costs of the starts are therefore comparable: each is that of a structure in equilibrium. At
 /// the result the gradient at frozen prestress vanishes (inside the bounds): within a solve, modulus and density do not change
-/// the cable forces. Large systems (options.surrogate_from_size) are searched on a reduced system. At each prestress state the
-/// full system is solved once. Its frequencies and Jacobian correct a projection on snapshots of its modes, which gives the
-/// next point. The returned cost, gradient and frequencies are always those of the full system. The starts run in parallel;
-/// results do not depend on the number of threads.
+/// the cable forces. Large systems (options.surrogate_from_size) are searched on a reduced system. At each point the full
+/// system is solved once. Its frequencies and Jacobian correct a projection on snapshots of its modes, which gives the next
+/// point, with the prestress found anew once on the way. The returned cost, gradient and frequencies are always those of the
+/// full system. The starts run in parallel; results do not depend on the number of threads.
 ///
 /// @param start    the model as it is before the updating, with the prestress of its initial parameter values
 /// @param refresh  see `Refresh`; empty for a system whose prestress does not depend on parameters
