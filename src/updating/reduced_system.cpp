@@ -102,6 +102,14 @@ MatrixXd ReducedSystem::mass(const Eigen::VectorXd& theta) const {
   return combine(system_->mass_terms, mass_, theta, basis_->cols());
 }
 
+std::pair<Eigen::VectorXd, MatrixXd> ReducedSystem::modes(const Eigen::VectorXd& theta, Index count) const {
+  const MatrixXd lower = linalg::cholesky_factor(mass(theta));  // M = L L', (L^-1 K L^-T) y = lambda y, z = L^-T y
+  if (lower.size() == 0) return {};
+  const MatrixXd half = linalg::lower_solve(lower, stiffness(theta));
+  const linalg::LeadingEigenpairs found = linalg::leading_eigenpairs(-linalg::lower_solve(lower, half.transpose()), count);
+  return {-found.values, linalg::lower_solve(lower, found.vectors, true)};
+}
+
 MatrixXd ReducedSystem::eigenvalue_derivatives(const Eigen::VectorXd& theta, const std::vector<int>& parameters,
                                                const Eigen::VectorXd& lambda, const MatrixXd& z) const {
   MatrixXd derivatives = MatrixXd::Zero(z.cols(), std::ssize(parameters));

@@ -2,6 +2,7 @@
 
 #include <Eigen/Core>
 #include <memory>
+#include <utility>
 #include <vector>
 
 #include "fe/parametric_system.hpp"
@@ -20,6 +21,9 @@ class ReducedSystem {
   /// (r × r)
   [[nodiscard]] Eigen::MatrixXd stiffness(const Eigen::VectorXd& theta) const;
   [[nodiscard]] Eigen::MatrixXd mass(const Eigen::VectorXd& theta) const;
+  /// The lowest modes, ascending, mass-normalised; empty if the mass is not positive definite.
+  /// @return (count), (r × count)
+  [[nodiscard]] std::pair<Eigen::VectorXd, Eigen::MatrixXd> modes(const Eigen::VectorXd& theta, Eigen::Index count) const;
   /// d lambda_i / d theta_p = z_i' (dK - lambda_i dM) z_i for mass-normalised z (r × m). (m × n_parameters)
   [[nodiscard]] Eigen::MatrixXd eigenvalue_derivatives(const Eigen::VectorXd& theta, const std::vector<int>& parameters,
                                                        const Eigen::VectorXd& lambda, const Eigen::MatrixXd& z) const;

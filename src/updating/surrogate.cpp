@@ -127,12 +127,13 @@ bool CorrectedResiduals::reduced_at(const VectorXd& x, VectorXd& residual, Matri
 
 bool CorrectedResiduals::rows_at(const VectorXd& x, VectorXd& residual, MatrixXd* jacobian) const {
   const VectorXd theta = definition_.theta(x);
-  const MatrixXd k = reduced_->stiffness(theta), m = reduced_->mass(theta);
-  const Eigen::GeneralizedSelfAdjointEigenSolver<MatrixXd> eig(k, m);
-  if (eig.info() != Eigen::Success) return false;
-  const Index n_modes = std::min<Index>(definition_.n_modes, k.cols());
-  const VectorXd lambda = eig.eigenvalues().head(n_modes);
-  const MatrixXd z = eig.eigenvectors().leftCols(n_modes);
+  const Index n_modes = std::min<Index>(definition_.n_modes, surrogate_.basis->cols());
+  // Derivatives of shapes are sums over all reduced modes.
+  const bool needs_all = definition_.weighted && definition_.weighted->has_shapes();
+  const auto [eigenvalues, vectors] = reduced_->modes(theta, needs_all ? surrogate_.basis->cols() : n_modes);
+  if (eigenvalues.size() == 0) return false;
+  const VectorXd lambda = eigenvalues.head(n_modes);
+  const MatrixXd z = vectors.leftCols(n_modes);
   MatrixXd scaled = z;
   const MatrixXd mass_z = surrogate_.mass * z;
   for (Index j = 0; j < n_modes; ++j) scaled.col(j) /= std::sqrt(z.col(j).dot(mass_z.col(j)));
@@ -149,7 +150,7 @@ bool CorrectedResiduals::rows_at(const VectorXd& x, VectorXd& residual, MatrixXd
     residual(i) = target.fitted ? std::sqrt(lambda(at)) / (2.0 * std::numbers::pi * target.measured_Hz) - 1.0 : 0.0;
   }
   if (definition_.weighted)
-    return weighted_at({eig.eigenvalues(), eig.eigenvectors(), n_modes, mode, followed.position}, theta, residual, jacobian);
+    return weighted_at({eigenvalues, vectors, n_modes, mode, followed.position}, theta, residual, jacobian);
   if (jacobian == nullptr) return true;
   const MatrixXd slope =
       reduced_->eigenvalue_derivatives(theta, definition_.active, lambda(mode), MatrixXd(z(Eigen::all, mode)));
