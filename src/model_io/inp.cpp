@@ -6,12 +6,11 @@
 #include <map>
 
 #include "core/error.hpp"
-#include "model_io/inp_assign.hpp"
 #include "model_io/inp_attachments.hpp"
 #include "model_io/inp_links.hpp"
-#include "model_io/inp_materials.hpp"
 #include "model_io/inp_mesh.hpp"
 #include "model_io/inp_parts.hpp"
+#include "model_io/inp_sections.hpp"
 #include "model_io/inp_stage.hpp"
 #include "model_io/inp_surfaces.hpp"
 #include "model_io/inp_ties.hpp"

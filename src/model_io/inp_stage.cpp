@@ -223,14 +223,13 @@ InpStage find_inp_stage(const InpPlan& plan) {
   const InpCard* opened = nullptr;
   const InpCard* stressed = nullptr;
   bool perturbation = false, loaded = false, modal = false, is_static = false;
+  const auto leave = [&](const std::vector<InpReading>& readings) {
+    for (const InpReading& reading : readings)
+      if (load_keywords().contains(reading.card->keyword)) stage.unused.push_back(reading.card);
+  };
   const auto close = [&] {
     if (opened == nullptr) return;
-    const bool general = is_static && !says_yes(*opened, "PERTURBATION");
-    for (const InpReading& reading : step) {
-      if (general) continue;
-      if (load_keywords().contains(reading.card->keyword)) stage.unused.push_back(reading.card);
-    }
-    if (!general) return;
+    if (!is_static || says_yes(*opened, "PERTURBATION")) return leave(step);
     stage.large = stage.large || says_yes(*opened, "NLGEOM");
     stage.cards.insert(stage.cards.end(), step.begin(), step.end());
   };
@@ -253,7 +252,7 @@ InpStage find_inp_stage(const InpPlan& plan) {
     }
     const bool load = load_keywords().contains(card.keyword) || is_nonzero_boundary(card);
     if (opened == nullptr) {
-      if (load_keywords().contains(card.keyword)) stage.unused.push_back(&card);
+      leave({reading});
     } else if (load || card.keyword == "STEP" || card.keyword == "BOUNDARY") {
       step.push_back(reading);
     }
@@ -267,22 +266,10 @@ InpStage find_inp_stage(const InpPlan& plan) {
     stressed->fail("gives initial stresses, but no step takes them up",
                    "write a static step with NLGEOM before the step with *FREQUENCY, or take the card out");
   if (!stage.asked) {
-    for (const InpReading& reading : stage.cards)
-      if (load_keywords().contains(reading.card->keyword)) stage.unused.push_back(reading.card);
+    leave(stage.cards);
     stage.cards.clear();
   }
   return stage;
-}
-
-void read_inp_expansion(InpParts& parts, const InpCard& card) {
-  if (parts.model.materials.empty()) card.fail("stands before any *MATERIAL", "move it below one");
-  const int material = static_cast<int>(parts.model.materials.size()) - 1;
-  const std::string type = upper_case(card.get("TYPE", "ISO"));
-  // What is not one number matters once a temperature acts, which is said there.
-  if (card.data.size() == 1 && (type == "ISO" || type == "ISOTROPIC"))
-    parts.expansion[material] = {card.data.front().number(0), 0.0};
-  else
-    parts.uneven_expansion.emplace(material, &card);
 }
 
 void read_inp_stage(InpParts& parts, const InpStage& stage) {

@@ -22,9 +22,6 @@ struct InpStage {
 /// @throws InputError  for initial stresses that no step takes up
 [[nodiscard]] InpStage find_inp_stage(const InpPlan& plan);
 
-/// *EXPANSION: the coefficient of the last *MATERIAL.
-void read_inp_expansion(InpParts& parts, const InpCard& card);
-
 /// Turns the cards of the stage into loads of the model, whose nodes and elements are final.
 /// @throws InputError  for a load that is not carried, by its name
 void read_inp_stage(InpParts& parts, const InpStage& stage);

@@ -7,7 +7,7 @@
 #include <cmath>
 
 #include "core/error.hpp"
-#include "model_io/inp_facets.hpp"
+#include "model_io/inp_surfaces.hpp"
 
 namespace twindeck::model_io {
 namespace {

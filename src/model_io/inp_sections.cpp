@@ -1,0 +1,340 @@
+#include "model_io/inp_sections.hpp"
+
+#include <fmt/format.h>
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "core/error.hpp"
+#include "model_io/inp_attachments.hpp"
+#include "model_io/inp_expanded_beam.hpp"
+#include "model_io/inp_profiles.hpp"
+
+namespace twindeck::model_io {
+namespace {
+
+/// The section of the group's name if it has these numbers, or a new one.
+int section_of_set(InpParts& parts, const InpCard& card, fe::Section section) {
+  const InpSet& set = parts.set(parts.element_sets, card, card.get("ELSET"));
+  const auto first = set.members.empty() ? parts.elements.end() : parts.elements.find(set.members.front());
+  section.name = first == parts.elements.end() ? set.name : parts.group_set(card, first->second).name;
+  return parts.add_section(section);
+}
+
+/// The material that the card names, isotropic or a beam's own (InpParts::second_shear_moduli).
+int any_material_of(InpParts& parts, const InpCard& card) {
+  const std::string name = card.required("MATERIAL");
+  const auto found = parts.materials.find(upper_case(name));
+  if (found == parts.materials.end()) {
+    std::vector<std::string> known;
+    for (const auto& m : parts.model.materials) known.push_back(m.name);
+    card.fail(fmt::format("material '{}' is not defined{}", name, did_you_mean(name, known)), "define it by *MATERIAL");
+  }
+  if (parts.model.materials[fe::slot(found->second)].youngs_modulus_Pa <= 0.0)
+    card.fail(fmt::format("material '{}' has no *ELASTIC", name), "give E and nu");
+  return found->second;
+}
+
+int material_of(InpParts& parts, const InpCard& card) {
+  const int material = any_material_of(parts, card);
+  if (parts.second_shear_moduli.contains(material))
+    card.fail(fmt::format("material '{}' is orthotropic, which only beams may be", card.get("MATERIAL")),
+              "give E and nu of an isotropic material");
+  return material;
+}
+
+double above_zero(const InpLine& line, std::size_t i) {
+  const double value = line.number(i);
+  if (value <= 0.0) line.fail(fmt::format("field {} is {}, expected a value above 0", i + 1, value), "SI units");
+  return value;
+}
+
+fe::Element to_element(InpParts& parts, const InpCard& card, const InpElement& element, fe::ElementType type, int material,
+                       int section) {
+  if (element.used > 1)
+    card.fail(fmt::format("element {} already has a section", element.id), "take it out of one of the sets");
+  fe::Element e;
+  e.id = element.id;
+  e.type = type;
+  e.group = parts.group_of(card, element);
+  e.material = material;
+  e.section = section;
+  for (const long id : element.nodes) e.nodes.push_back(parts.node(*element.at, id));
+  return e;
+}
+
+/// Beams whose local y is n1 of the second data line; our local z is n2 = t × n1.
+void add_beams(InpParts& parts, const InpCard& card, int material, int section) {
+  Eigen::Vector3d n1(0.0, 0.0, -1.0);
+  if (card.data.size() > 1) n1 = card.data[1].vector(0);
+  if (parts.is_turned()) n1 = (parts.scopes[static_cast<std::size_t>(parts.scope)].rotation * n1).eval();
+  for (const InpElement* element : parts.elements_of(card, InpKind::beam))
+    parts.add_beam(to_element(parts, card, *element, fe::ElementType::beam, material, section),
+                   [&](fe::Element& piece, const Eigen::Vector3d& axis) {
+                     piece.orientation =
+                         DeckModel::local_z(card, fmt::format("element {}", element->id), axis, n1,
+                                            "give n1 across the beam in the second data line (default 0, 0, -1)");
+                   });
+}
+
+/// The two shear moduli of an orthotropic beam hold in its own axes, so that *ORIENTATION has to name them.
+void check_orientation(InpParts& parts, const InpCard& card, const fe::Element& e) {
+  (void)card.required("ORIENTATION");
+  const InpOrientation axes = inp_axes_of(parts, card);
+  const Eigen::Vector3d t = (parts.place(e.nodes[1]) - parts.place(e.nodes[0])).normalized();
+  constexpr double aligned = 1.0 - 1e-6;  // 0.08 degrees
+  if (std::abs(axes.row(0).dot(t)) < aligned || std::abs(axes.row(2).dot(e.orientation)) < aligned)
+    card.fail(fmt::format("orientation '{}' is not along the axes of element {}", card.get("ORIENTATION"), e.id),
+              "its x' is the beam's axis and its y' the direction n1");
+}
+
+/// Whether the card's elements are B33, Euler's beam, which is rigid in shear.
+bool is_euler_beam(InpParts& parts, const InpCard& card) {
+  const InpSet& set = parts.set(parts.element_sets, card, card.get("ELSET"));
+  const auto euler = std::count_if(set.members.begin(), set.members.end(), [&](long id) {
+    const auto element = parts.elements.find(id);
+    return element != parts.elements.end() && element->second.type == "B33";
+  });
+  if (euler > 0 && euler < std::ssize(set.members))
+    card.fail("its set mixes B33, which is rigid in shear, with other beams", "give the B33 a set and a section of their own");
+  return euler > 0;
+}
+
+void assign_beam(InpParts& parts, const InpCard& card) {
+  card.allow({"ELSET", "MATERIAL", "SECTION", "POISSON", "TEMPERATURE", "ORIENTATION"});
+  std::string profile = upper_case(card.required("SECTION"));
+  if (profile == "RECTANGULAR" || profile == "CIRCULAR") profile.resize(4);  // "RECT", "CIRC"
+  if (profile == "THICK PIPE") profile = "PIPE";
+  const std::size_t size = profile_size(profile);
+  if (size == 0)
+    card.fail(fmt::format("unsupported SECTION={}{}", profile, did_you_mean(profile, profile_names())),
+              "supported are BOX, CIRC, I, PIPE, RECT, and GENERAL on *BEAM GENERAL SECTION");
+  const int material = any_material_of(parts, card);
+  const auto second = parts.second_shear_moduli.find(material);
+  const InpLine& line = card.line_of(0, "the dimensions");
+  std::vector<double> values;
+  for (std::size_t i = 0; i < size; ++i) values.push_back(line.number(i));
+  if (profile == "CIRC" && line.fields.size() > 1) {
+    // Abaqus gives the radius; CalculiX both diameters, of an ellipse if they differ.
+    if (line.number(1) != values[0]) line.fail("an ellipse is not supported", "give a circle");
+    values[0] /= 2.0;
+  }
+  std::string problem;
+  const fe::Material& m = parts.model.materials[fe::slot(material)];
+  fe::Section section = profile_section(profile, values, m.poisson_ratio, problem);
+  if (!problem.empty())
+    line.fail(problem, fmt::format("check the dimensions of the {}, or give another shape by *BEAM GENERAL SECTION", profile));
+  if (is_euler_beam(parts, card)) section.shear_area_y_m2 = section.shear_area_z_m2 = 0.0;
+  const bool orthotropic = second != parts.second_shear_moduli.end();
+  if (orthotropic) section = contracted_beam(section, m.shear_modulus_Pa, second->second);
+  const std::size_t before = parts.model.elements.size();
+  add_beams(parts, card, material, section_of_set(parts, card, section));
+  for (std::size_t i = before; orthotropic && i < parts.model.elements.size(); ++i)
+    check_orientation(parts, card, parts.model.elements[i]);
+}
+
+/// A material of the file with these numbers, or this one under the name of its set.
+int find_or_add_material(InpParts& parts, fe::Material m) {
+  const auto near = [](double a, double b) { return std::abs(a - b) <= 1e-9 * std::max(std::abs(a), std::abs(b)); };
+  auto& materials = parts.model.materials;
+  const auto same = std::find_if(materials.begin(), materials.end(), [&](const fe::Material& other) {
+    return near(other.youngs_modulus_Pa, m.youngs_modulus_Pa) && near(other.shear_modulus_Pa, m.shear_modulus_Pa) &&
+           near(other.density_kg_m3, m.density_kg_m3);
+  });
+  if (same != materials.end()) return static_cast<int>(same - materials.begin());
+  if (!parts.materials.emplace(upper_case(m.name), static_cast<int>(materials.size())).second) m.name += "_section";
+  materials.push_back(m);
+  return static_cast<int>(materials.size()) - 1;
+}
+
+void assign_general_beam(InpParts& parts, const InpCard& card) {
+  card.allow({"ELSET", "SECTION", "DENSITY", "POISSON"});
+  if (upper_case(card.get("SECTION", "GENERAL")) != "GENERAL")
+    card.fail("only SECTION=GENERAL is supported on this card", "profiles go on *BEAM SECTION");
+  const InpLine& line = card.line_of(0, "A, I11, I12, I22, J");
+  fe::Section s;
+  s.area_m2 = above_zero(line, 0);
+  s.inertia_y_m4 = above_zero(line, 1);
+  s.inertia_yz_m4 = line.number_or(2, 0.0);
+  s.inertia_z_m4 = above_zero(line, 3);
+  s.torsion_m4 = above_zero(line, 4);
+  const InpLine& moduli = card.line_of(2, "E and G");
+  fe::Material m;
+  m.name = parts.set(parts.element_sets, card, card.required("ELSET")).name;
+  m.youngs_modulus_Pa = above_zero(moduli, 0);
+  m.shear_modulus_Pa = above_zero(moduli, 1);
+  m.poisson_ratio = std::clamp(m.youngs_modulus_Pa / (2.0 * m.shear_modulus_Pa) - 1.0, -0.99, 0.499);
+  if (card.has("DENSITY")) m.density_kg_m3 = card.value("DENSITY").number(0);
+  if (const InpCard* shear = parts.card_after(card); shear != nullptr && shear->keyword == "TRANSVERSE SHEAR STIFFNESS") {
+    const InpLine& stiffness = shear->line_of(0, "K23 and K13");
+    s.shear_area_z_m2 = above_zero(stiffness, 0) / m.shear_modulus_Pa;
+    s.shear_area_y_m2 = above_zero(stiffness, 1) / m.shear_modulus_Pa;
+  }
+  if (s.inertia_yz_m4 * s.inertia_yz_m4 > s.inertia_y_m4 * s.inertia_z_m4)
+    line.fail("I12 is larger than sqrt(I11 I22), which no section can have", "check the second moments of area");
+  const int material = find_or_add_material(parts, m);
+  add_beams(parts, card, material, section_of_set(parts, card, s));
+}
+
+/// *SHELL SECTION, and *USER SECTION of CalculiX' three-node user shell US3, whose constants begin with the thickness.
+void assign_shell(InpParts& parts, const InpCard& card) {
+  std::vector<std::string> known = {"ELSET",   "MATERIAL",    "SECTION INTEGRATION",
+                                    "POISSON", "ORIENTATION", "CONTROLS"};  // isotropic: no direction matters
+  if (card.keyword == "USER SECTION") known = {"ELSET", "MATERIAL", "CONSTANTS"};
+  if (const std::string offset = upper_case(card.get("OFFSET", "0")); offset == "0" || offset == "0." || offset == "0.0")
+    known.emplace_back("OFFSET");
+  card.allow(known);
+  const int material = material_of(parts, card);
+  fe::Section s;
+  s.thickness_m = above_zero(card.line_of(0, "the thickness"), 0);
+  const int section = section_of_set(parts, card, s);
+  for (const InpElement* element : parts.elements_of(card, InpKind::shell))
+    parts.add_element(to_element(parts, card, *element, fe::ElementType::shell, material, section));
+}
+
+/// *SOLID SECTION: area of trusses; solids have no section of their own.
+void assign_solid(InpParts& parts, const InpCard& card) {
+  card.allow({"ELSET", "MATERIAL", "CONTROLS", "ORIENTATION"});  // isotropic: no direction matters
+  const int material = material_of(parts, card);
+  const auto elements = parts.elements_of(card, InpKind::truss, InpKind::solid);
+  if (elements.empty()) return;
+  const InpKind kind = inp_kind(elements.front()->type);
+  const bool truss = kind == InpKind::truss;
+  fe::Section s;
+  if (truss) s.area_m2 = above_zero(card.line_of(0, "the area of the trusses"), 0);
+  const int section = truss ? section_of_set(parts, card, s) : -1;
+  for (const InpElement* element : elements) {
+    if (inp_kind(element->type) != kind) card.fail("its set mixes trusses and solids", "give each kind a set and a section");
+    parts.add_element(
+        to_element(parts, card, *element, truss ? fe::ElementType::bar : fe::ElementType::solid, material, section));
+  }
+}
+
+/// *ELASTIC, *DENSITY and *EXPANSION belong to the last *MATERIAL.
+fe::Material& current_material(InpParts& parts, const InpCard& card) {
+  if (parts.model.materials.empty()) card.fail("stands before any *MATERIAL", "move it below one");
+  return parts.model.materials.back();
+}
+
+const InpLine& one_line(const InpCard& card, const char* what) {
+  if (card.data.empty()) card.fail("has no data line", fmt::format("give {} below it", what));
+  if (card.data.size() > 1) {
+    card.data[1].fail("has more than one data line: values that depend on temperature are not supported",
+                      fmt::format("give {} at one temperature", what));
+  }
+  return card.data.front();
+}
+
+/// The material of a beam as our own CalculiX files have it (inp_expanded_beam.hpp): one E, no Poisson's ratio, G12 and G13.
+void read_beam_constants(InpParts& parts, const InpCard& card, fe::Material& material) {
+  if (card.data.size() != 2) {
+    card.fail(fmt::format("has {} data lines, expected 2", card.data.size()),
+              "give E1, E2, E3, nu12, nu13, nu23, G12, G13 on the first and G23 on the second");
+  }
+  std::array<double, 9> constants{};
+  for (std::size_t i = 0; i < 8; ++i) constants[i] = card.data[0].number(i);
+  constants[8] = card.data[1].number(0);
+  const bool one_modulus = constants[0] > 0.0 && constants[1] == constants[0] && constants[2] == constants[0];
+  if (!one_modulus || constants[3] != 0.0 || constants[4] != 0.0 || constants[5] != 0.0) {
+    card.data[0].fail("is orthotropic with several E or Poisson's ratios, which is not supported",
+                      "give E and nu of an isotropic material");
+  }
+  for (std::size_t i = 6; i < 9; ++i) {
+    if (constants[i] <= 0.0) card.data[i / 8].fail("a shear modulus is not above 0", "give G12, G13, G23 in Pa");
+  }
+  material.youngs_modulus_Pa = constants[0];
+  material.poisson_ratio = 0.0;
+  material.shear_modulus_Pa = constants[6];
+  parts.second_shear_moduli[static_cast<int>(parts.model.materials.size()) - 1] = constants[7];
+}
+
+}  // namespace
+
+void assign_inp_section(InpParts& parts, const InpCard& card) {
+  (void)card.required("ELSET");
+  if (card.keyword == "BEAM SECTION") return assign_beam(parts, card);
+  if (card.keyword == "BEAM GENERAL SECTION") return assign_general_beam(parts, card);
+  if (card.keyword.starts_with("SHELL") || card.keyword == "USER SECTION") return assign_shell(parts, card);
+  assign_solid(parts, card);
+}
+
+void read_inp_material(InpParts& parts, const InpCard& card) {
+  const std::string name = card.required("NAME");
+  if (!parts.materials.emplace(upper_case(name), static_cast<int>(parts.model.materials.size())).second) {
+    card.fail(fmt::format("material '{}' is defined twice", name), "keep one of the two");
+  }
+  fe::Material material;
+  material.name = name;
+  parts.model.materials.push_back(material);
+}
+
+void read_inp_elastic(InpParts& parts, const InpCard& card) {
+  fe::Material& material = current_material(parts, card);
+  card.allow({"TYPE"});
+  const std::string type = upper_case(card.get("TYPE", "ISOTROPIC"));
+  if (type == "ENGINEERING CONSTANTS") return read_beam_constants(parts, card, material);
+  if (type != "ISOTROPIC" && type != "ISO") {
+    card.fail(fmt::format("TYPE={} is not supported, expected ISOTROPIC", type),
+              "the members of a frame or deck are isotropic here; give E and nu");
+  }
+  parts.second_shear_moduli.erase(static_cast<int>(parts.model.materials.size()) - 1);
+  const InpLine& line = one_line(card, "E and nu");
+  material.youngs_modulus_Pa = line.number(0);
+  material.poisson_ratio = line.number_or(1, 0.0);
+  if (material.youngs_modulus_Pa <= 0.0) line.fail("E must be above 0", "give E in Pa, and nu");
+  DeckModel::check_poisson_ratio(line, material.poisson_ratio);
+  material.shear_modulus_Pa = material.youngs_modulus_Pa / (2.0 * (1.0 + material.poisson_ratio));
+}
+
+void read_inp_expansion(InpParts& parts, const InpCard& card) {
+  (void)current_material(parts, card);
+  const int material = static_cast<int>(parts.model.materials.size()) - 1;
+  const std::string type = upper_case(card.get("TYPE", "ISO"));
+  // What is not one number matters once a temperature acts, which is said there.
+  if (card.data.size() == 1 && (type == "ISO" || type == "ISOTROPIC"))
+    parts.expansion[material] = {card.data.front().number(0), 0.0};
+  else
+    parts.uneven_expansion.emplace(material, &card);
+}
+
+void read_inp_density(InpParts& parts, const InpCard& card) {
+  fe::Material& material = current_material(parts, card);
+  const InpLine& line = one_line(card, "the density");
+  material.density_kg_m3 = line.number(0);
+  if (material.density_kg_m3 < 0.0) line.fail("the density must not be negative", "give it in kg/m3");
+}
+
+void read_inp_orientation(InpParts& parts, const InpCard& card) {
+  card.allow({"NAME", "SYSTEM", "DEFINITION"});
+  const std::string definition = upper_case(card.get("DEFINITION", "COORDINATES"));
+  if (upper_case(card.get("SYSTEM", "RECTANGULAR")) != "RECTANGULAR" || (definition != "COORDINATES" && definition != "NODES"))
+    card.fail("only SYSTEM=RECTANGULAR by coordinates or nodes is supported", "give the points a and b");
+  if (card.data.empty()) card.fail("has no data line", "give the points a and b");
+  Eigen::Vector3d a, b;
+  if (definition == "NODES") {
+    const auto place = [&](std::size_t field) { return parts.place(parts.node(card, parts.node_id(card.data[0], field))); };
+    const Eigen::Vector3d origin = !card.data[0].blank(2) ? place(2) : Eigen::Vector3d(Eigen::Vector3d::Zero());
+    a = place(0) - origin;
+    b = place(1) - origin;
+  } else {
+    (void)card.data[0].number(5);
+    a = card.data[0].vector(0);
+    b = card.data[0].vector(3);
+  }
+  const Eigen::Vector3d z = a.cross(b);
+  if (z.norm() < 1e-9 * a.norm() * b.norm() || a.norm() == 0.0) {
+    card.data[0].fail("points a and b lie in one direction", "b gives the x'-y' plane");
+  }
+  InpOrientation axes;
+  axes.row(0) = a.normalized();
+  axes.row(2) = z.normalized();
+  axes.row(1) = axes.row(2).cross(axes.row(0));
+  const InpScope& scope = parts.scopes[static_cast<std::size_t>(parts.scope)];
+  // Nodes are turned with their instance already.
+  if (scope.turned() && definition == "COORDINATES") axes = (axes * scope.rotation.transpose()).eval();
+  parts.orientations[parts.key_here(card.required("NAME"))] = axes;
+}
+
+}  // namespace twindeck::model_io
