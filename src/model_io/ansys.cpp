@@ -6,7 +6,6 @@
 
 #include "io/text_lines.hpp"
 #include "model_io/ansys_blocks.hpp"
-#include "model_io/ansys_generate.hpp"
 #include "model_io/ansys_ignored.hpp"
 #include "model_io/ansys_mesh.hpp"
 #include "model_io/ansys_parts.hpp"
@@ -14,7 +13,6 @@
 #include "model_io/ansys_selection.hpp"
 #include "model_io/ansys_stage.hpp"
 #include "model_io/ansys_supports.hpp"
-#include "model_io/ansys_ties.hpp"
 
 namespace twindeck::model_io {
 namespace ansys {

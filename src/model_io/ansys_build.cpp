@@ -8,10 +8,9 @@
 #include <vector>
 
 #include "core/error.hpp"
-#include "model_io/ansys_attachments.hpp"
 #include "model_io/ansys_members.hpp"
 #include "model_io/ansys_stage.hpp"
-#include "model_io/ansys_ties.hpp"
+#include "model_io/ansys_supports.hpp"
 
 namespace twindeck::model_io::ansys {
 namespace {

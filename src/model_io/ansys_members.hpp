@@ -2,9 +2,13 @@
 
 #include "model_io/ansys_build.hpp"
 
-/// Inside of the library: beams, bars, shells and solids of the model.
+/// Inside of the library: beams, bars, shells, solids, springs, masses and supports of the model.
 namespace twindeck::model_io::ansys {
 
 void add_member(Builder& builder, const Member& member);
+
+void add_spring(Builder& builder, const Member& member);
+void add_mass(Builder& builder, const Member& member);
+void add_supports(Builder& builder);
 
 }  // namespace twindeck::model_io::ansys

@@ -11,7 +11,7 @@
 #include "fe/model.hpp"
 #include "model_io/ansys_commands.hpp"
 #include "model_io/ansys_types.hpp"
-#include "model_io/deck_expression.hpp"
+#include "model_io/deck_card.hpp"
 #include "model_io/deck_model.hpp"
 
 /// Inside of the library: what a deck of ANSYS says, collected command by command in its own numbers, and made into an

@@ -3,7 +3,6 @@
 #include "model_io/load_cases.hpp"
 #include "model_io/matrix_model.hpp"
 #include "model_io/read_model.hpp"
-#include "model_io/write_matrix_model.hpp"
 #include "model_io/write_model.hpp"
 
 namespace twindeck::model_io {

@@ -8,19 +8,17 @@
 
 #include "core/error.hpp"
 #include "io/text_lines.hpp"
+#include "model_io/deck_model.hpp"
 #include "model_io/deck_units.hpp"
 #include "model_io/model_toml.hpp"
-#include "model_io/nastran_constraints.hpp"
+#include "model_io/nastran_attachments.hpp"
 #include "model_io/nastran_dmig.hpp"
 #include "model_io/nastran_elements.hpp"
 #include "model_io/nastran_grids.hpp"
 #include "model_io/nastran_ignored.hpp"
-#include "model_io/nastran_masses.hpp"
 #include "model_io/nastran_parts.hpp"
-#include "model_io/nastran_springs.hpp"
 #include "model_io/nastran_stage.hpp"
 #include "model_io/nastran_supports.hpp"
-#include "model_io/node_references.hpp"
 
 namespace twindeck::model_io {
 namespace nastran {

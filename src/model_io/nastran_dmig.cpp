@@ -6,8 +6,8 @@
 #include <map>
 #include <set>
 
+#include "model_io/nastran_attachments.hpp"
 #include "model_io/nastran_properties.hpp"
-#include "model_io/nastran_springs.hpp"
 
 namespace twindeck::model_io::nastran {
 namespace {

@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "model_io/nastran_beams.hpp"
 #include "model_io/nastran_properties.hpp"
 
 namespace twindeck::model_io::nastran {

@@ -3,8 +3,150 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
+#include <map>
+#include <optional>
 
+#include "model_io/inp_profiles.hpp"
+
+/// Sections of CBAR and CBEAM. Nastran's element axes are ours: plane 1 is x-y, so that I1 is our inertia_z, I2 our inertia_y,
+/// K1 belongs to shear along y, K2 along z.
 namespace twindeck::model_io::nastran {
+namespace {
+
+/// Area, I1, I2, I12, J, mass per length that is not structural: a station of PBEAM.
+struct Station {
+  std::array<double, 6> value{};
+};
+
+fe::Section to_section(const std::string& name, const Station& s, double k1, double k2) {
+  fe::Section section;
+  section.name = name;
+  section.area_m2 = s.value[0];
+  section.inertia_z_m4 = s.value[1];
+  section.inertia_y_m4 = s.value[2];
+  section.inertia_yz_m4 = s.value[3];
+  section.torsion_m4 = s.value[4];
+  section.shear_area_y_m2 = k1 * s.value[0];
+  section.shear_area_z_m2 = k2 * s.value[0];
+  return section;
+}
+
+void check_station(const Card& card, const Station& s) {
+  const std::array<const char*, 5> names = {"the area", "I1", "I2", "", "J"};
+  for (const std::size_t i : {0U, 1U, 2U, 4U}) {
+    if (s.value[i] > 0.0) continue;
+    card.fail(fmt::format("{} is {:g}, expected a value above 0", names[i], s.value[i]),
+              i == 0 ? "give the area" : "a member without it is held by AUTOSPC there; give a small value, or use CROD");
+  }
+  if (s.value[5] < 0.0) card.fail("the nonstructural mass is negative", "check the sign");
+}
+
+void refuse_values(const Card& card, std::size_t first, std::size_t count, const char* what) {
+  for (std::size_t i = first; i < first + count; ++i) {
+    if (card.number_or(i, 0.0) != 0.0)
+      card.fail(fmt::format("has {}, which is not read", what), "write the section without it");
+  }
+}
+
+/// A profile of PBARL and PBEAML by the reader of .inp sections; `swapped`: it has y and z exchanged.
+struct Profile {
+  std::string name;
+  std::vector<double> values;
+  bool swapped = false;
+};
+
+const std::map<std::string, std::size_t>& profile_dimensions() {
+  static const std::map<std::string, std::size_t> known = {{"ROD", 1}, {"TUBE", 2}, {"TUBE2", 2},
+                                                           {"BAR", 2}, {"BOX", 4},  {"I", 6}};
+  return known;
+}
+
+/// Nastran's vertical is the element's y, its horizontal z; the .inp profiles have a along y, b along z, and an I upright in z.
+Profile to_profile(const std::string& type, const std::vector<double>& d) {
+  if (type == "ROD") return {"CIRC", {d[0]}};
+  if (type == "TUBE") return d[1] > 0.0 ? Profile{"PIPE", {d[0], d[0] - d[1]}} : Profile{"CIRC", {d[0]}};
+  if (type == "TUBE2") return {"PIPE", {d[0], d[1]}};
+  if (type == "BAR") return {"RECT", {d[1], d[0]}};
+  if (type == "BOX") return {"BOX", {d[1], d[0], d[2], d[3], d[2], d[3]}};
+  return {"I", {d[0] / 2.0, d[0], d[1], d[2], d[4], d[5], d[3]}, true};
+}
+
+fe::Section library_section(const Card& card, const std::string& type, const std::vector<double>& dimensions,
+                            const std::string& name, double poisson_ratio) {
+  const Profile profile = to_profile(type, dimensions);
+  std::string problem;
+  fe::Section s = profile_section(profile.name, profile.values, poisson_ratio, problem);
+  if (!problem.empty()) card.fail(problem, "check the dimensions of the " + type);
+  if (profile.swapped) {
+    std::swap(s.inertia_y_m4, s.inertia_z_m4);
+    std::swap(s.shear_area_y_m2, s.shear_area_z_m2);
+  }
+  s.name = name;
+  return s;
+}
+
+/// Type and number of dimensions of PBARL, PBEAML.
+std::pair<std::string, std::size_t> profile_of(const Card& card) {
+  const std::string type = card.word(3);
+  const auto found = profile_dimensions().find(type);
+  if (found == profile_dimensions().end())
+    card.fail(fmt::format("section '{}' is not read, expected ROD, TUBE, TUBE2, BAR, BOX or I", type),
+              card.name == "PBARL" ? "give its A, I1, I2, J on a PBAR" : "give its A, I1, I2, J on a PBEAM");
+  return *found;
+}
+
+std::vector<double> numbers(const Card& card, std::size_t first, std::size_t count) {
+  std::vector<double> values;
+  for (std::size_t i = first; i < first + count; ++i) values.push_back(card.number(i));
+  return values;
+}
+
+double poisson_ratio_of(Parts& parts, const Card& card) {
+  return parts.model.materials[static_cast<std::size_t>(parts.material(card, card.integer(1)))].poisson_ratio;
+}
+
+/// Station at the fields from `i` on; blank ones as in `above`, which is end A.
+Station station_at(const Card& card, std::size_t i, const Station& above) {
+  Station s;
+  for (std::size_t k = 0; k < 6; ++k) s.value[k] = card.number_or(i + k, above.value[k]);
+  return s;
+}
+
+bool is_output_word(const std::string& field) {
+  const std::string word = upper_case(field);
+  return word == "YES" || word == "YESA" || word == "NO";
+}
+
+MemberProperty member(Parts& parts, const Card& card, const fe::Section& a, const std::optional<fe::Section>& b, double nsm) {
+  MemberProperty p;
+  p.section = parts.add_section(a);
+  if (b) p.section2 = parts.add_section(*b);
+  p.material = parts.material(card, card.integer(1), nsm / a.area_m2, property_name(card));
+  return p;
+}
+
+MemberProperty tapered_library(Parts& parts, const Card& card) {
+  const auto [type, n] = profile_of(card);
+  const std::string name = property_name(card);
+  const double nu = poisson_ratio_of(parts, card);
+  const std::vector<double> first = numbers(card, 8, n);
+  const double nsm = card.number_or(8 + n, 0.0);
+  std::optional<fe::Section> other;
+  for (std::size_t i = 9 + n; i < card.size(); i += 3 + n) {  // SO, X, the dimensions, NSM
+    std::vector<double> values;
+    for (std::size_t k = 0; k < n; ++k) values.push_back(card.number_or(i + 2 + k, first[k]));
+    if (card.number_or(i + 2 + n, nsm) != nsm)
+      card.fail("the nonstructural mass varies along the member, which is not read", "give one value");
+    if (values == first) continue;
+    if (card.number_or(i + 1, 1.0) != 1.0)
+      card.fail("has a section of its own between its ends, which is not read", "split the members there");
+    other = library_section(card, type, values, name + "_b", nu);
+  }
+  return member(parts, card, library_section(card, type, first, name, nu), other, nsm);
+}
+
+}  // namespace
 
 std::string property_name(const Card& property) { return lower_case(property.name + "_" + property.text(0)); }
 
@@ -52,6 +194,54 @@ int Parts::material(const DeckPlace& from, long id, double added_density, const 
     notes.push_back(
         fmt::format("{}: its nonstructural mass is spread over the section, as density of material {}", owner, name));
   return material_position[name];
+}
+
+MemberProperty bar_property(Parts& parts, const Card& element, long id) {
+  const Card& card = parts.property(element, id, {"PBAR", "PBARL"});
+  const std::string name = property_name(card);
+  if (card.name == "PBARL") {
+    const auto [type, n] = profile_of(card);
+    return member(parts, card, library_section(card, type, numbers(card, 8, n), name, poisson_ratio_of(parts, card)),
+                  std::nullopt, card.number_or(8 + n, 0.0));
+  }
+  const Station s{{card.number_or(2, 0.0), card.number_or(3, 0.0), card.number_or(4, 0.0), card.number_or(18, 0.0),
+                   card.number_or(5, 0.0), card.number_or(6, 0.0)}};
+  check_station(card, s);
+  // K1, K2 blank: rigid in shear.
+  const fe::Section section = to_section(name, s, card.number_or(16, 0.0), card.number_or(17, 0.0));
+  return member(parts, card, section, std::nullopt, s.value[5]);
+}
+
+MemberProperty beam_property(Parts& parts, const Card& element, long id) {
+  const Card& card = parts.property(element, id, {"PBEAM", "PBEAML"});
+  if (card.name == "PBEAML") return tapered_library(parts, card);
+  const std::string name = property_name(card);
+  const Station a = station_at(card, 2, {});
+  check_station(card, a);
+  std::size_t i = is_output_word(card.text(8)) ? 8 : 16;  // the line of stress points at end A may be left out
+  std::optional<Station> b;
+  while (is_output_word(card.text(i))) {
+    const Station s = station_at(card, i + 2, a);
+    check_station(card, s);
+    if (s.value != a.value && card.number_or(i + 1, 1.0) != 1.0)
+      card.fail("has a section of its own between its ends, which is not read", "split the members there");
+    if (s.value[5] != a.value[5])
+      card.fail("the nonstructural mass varies along the member, which is not read", "give one value");
+    if (s.value != a.value) b = s;
+    // YES: a line of stress points follows.
+    i += upper_case(card.fields[i]) == "YES" ? 16 : 8;
+  }
+  // K1 K2 S1 S2 NSI(A) NSI(B) CW(A) CW(B), then M1 M2 N1 N2 of both ends. Blank K: 1.
+  const double k1 = card.number_or(i, 1.0), k2 = card.number_or(i + 1, 1.0);
+  refuse_values(card, i + 2, 2, "shear relief of a taper (S1, S2)");
+  refuse_values(card, i + 4, 2, "rotary inertia of its nonstructural mass (NSI)");
+  if (card.number_or(i + 6, 0.0) != 0.0 || card.number_or(i + 7, 0.0) != 0.0)
+    parts.notes.push_back(name + ": its warping constant (CW) is left out");
+  refuse_values(card, i + 8, 4, "nonstructural mass beside its axis (M1, M2)");
+  refuse_values(card, i + 12, 4, "a neutral axis beside its shear centre (N1, N2)");
+  std::optional<fe::Section> other;
+  if (b) other = to_section(name + "_b", *b, k1, k2);
+  return member(parts, card, to_section(name, a, k1, k2), other, a.value[5]);
 }
 
 }  // namespace twindeck::model_io::nastran

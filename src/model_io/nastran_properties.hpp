@@ -9,6 +9,8 @@ namespace twindeck::model_io::nastran {
 
 /// "pbar_7": group and section of a property.
 [[nodiscard]] std::string property_name(const Card& property);
+[[nodiscard]] MemberProperty bar_property(Parts& parts, const Card& element, long id);   ///< PBAR, PBARL
+[[nodiscard]] MemberProperty beam_property(Parts& parts, const Card& element, long id);  ///< PBEAM, PBEAML
 /// Components "1" to "6" of a field as flags. @throws InputError for anything else, scalar points (0 or blank) included
 [[nodiscard]] Directions components(const DeckFields& card, std::size_t i);
 

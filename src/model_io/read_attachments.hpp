@@ -7,7 +7,6 @@
 /// Inside of the library: supports.csv, springs.csv, links.csv, constraints.csv, masses.csv, points.csv. Each may be missing.
 namespace twindeck::model_io {
 
-/// supports.csv, springs.csv, links.csv, constraints.csv, masses.csv, points.csv: each may be missing.
 void read_supports(const std::filesystem::path& folder, fe::Model& model, const NameIndex& index);
 void read_springs(const std::filesystem::path& folder, fe::Model& model, const NameIndex& index);
 void read_links(const std::filesystem::path& folder, fe::Model& model, const NameIndex& index);

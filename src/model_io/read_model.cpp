@@ -9,7 +9,6 @@
 #include "model_io/model_toml.hpp"
 #include "model_io/read_attachments.hpp"
 #include "model_io/read_elements.hpp"
-#include "model_io/read_nodes_and_properties.hpp"
 
 namespace twindeck::model_io {
 namespace {

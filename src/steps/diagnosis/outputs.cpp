@@ -14,7 +14,7 @@
 #include "io/csv.hpp"
 #include "io/toml_value.hpp"
 #include "model_io/load_cases.hpp"
-#include "model_io/write_matrix_model.hpp"
+#include "model_io/matrix_model.hpp"
 #include "model_io/write_model.hpp"
 
 namespace twindeck::steps {

@@ -10,7 +10,7 @@
 
 #include "dynamics/eigenmodes.hpp"
 #include "fe/assembly.hpp"
-#include "model_io/deck_expression.hpp"
+#include "model_io/deck_card.hpp"
 #include "test_folder.hpp"
 
 namespace twindeck::model_io::test::ansys_reading {

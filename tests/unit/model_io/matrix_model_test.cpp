@@ -6,7 +6,6 @@
 #include "matrix_io/matrix_market.hpp"
 #include "model_io/export_matrices.hpp"
 #include "model_io/read_model.hpp"
-#include "model_io/write_matrix_model.hpp"
 #include "test_folder.hpp"
 
 namespace twindeck::model_io::test {
