@@ -1,7 +1,6 @@
 #include "records/recorded_unit.hpp"
 
 #include <array>
-#include <map>
 
 #include "records/text_cells.hpp"
 
@@ -31,100 +30,57 @@ std::string plain(const std::string& unit) {
   return lower(text);
 }
 
-struct Known {
-  const char* spelling;
-  const char* quantity;
-  double si_factor;
-};
-
 constexpr double kG = 9.80665, kInch = 0.0254, kFoot = 0.3048,
                  kPoundForce = 4.4482216152605;  // [m/s²], [m], [m], [N]: exact by definition
 
-const std::map<std::string, RecordedUnit>& known_units() {
-  static constexpr Known list[] = {
-      {"m/s2", "acceleration", 1.0},
-      {"m/s/s", "acceleration", 1.0},
-      {"ms-2", "acceleration", 1.0},
-      {"m*s-2", "acceleration", 1.0},
-      {"m/sec2", "acceleration", 1.0},
-      {"m/s\xB2", "acceleration", 1.0},
-      {"mm/s2", "acceleration", 1e-3},
-      {"mm/s/s", "acceleration", 1e-3},
-      {"mm/sec2", "acceleration", 1e-3},
-      {"cm/s2", "acceleration", 1e-2},
-      {"cm/s/s", "acceleration", 1e-2},
-      {"cm/sec2", "acceleration", 1e-2},
-      {"um/s2", "acceleration", 1e-6},
-      {"gal", "acceleration", 1e-2},
-      {"mgal", "acceleration", 1e-5},
-      {"g", "acceleration", kG},
-      {"gn", "acceleration", kG},
-      {"g0", "acceleration", kG},
-      {"mg", "acceleration", 1e-3 * kG},
-      {"ug", "acceleration", 1e-6 * kG},
-      {"in/s2", "acceleration", kInch},
-      {"ft/s2", "acceleration", kFoot},
-      {"m/s", "velocity", 1.0},
-      {"ms-1", "velocity", 1.0},
-      {"m/sec", "velocity", 1.0},
-      {"cm/s", "velocity", 1e-2},
-      {"cm/sec", "velocity", 1e-2},
-      {"mm/s", "velocity", 1e-3},
-      {"mm/sec", "velocity", 1e-3},
-      {"um/s", "velocity", 1e-6},
-      {"nm/s", "velocity", 1e-9},
-      {"in/s", "velocity", kInch},
-      {"ips", "velocity", kInch},
-      {"ft/s", "velocity", kFoot},
-      {"m", "displacement", 1.0},
-      {"cm", "displacement", 1e-2},
-      {"mm", "displacement", 1e-3},
-      {"um", "displacement", 1e-6},
-      {"nm", "displacement", 1e-9},
-      {"in", "displacement", kInch},
-      {"inch", "displacement", kInch},
-      {"mil", "displacement", 1e-3 * kInch},
-      {"ft", "displacement", kFoot},
-      {"n", "force", 1.0},
-      {"kn", "force", 1e3},
-      {"lbf", "force", kPoundForce},
-      {"kip", "force", 1e3 * kPoundForce},
-      {"v", "", 0.0},
-      {"mv", "", 0.0},
-      {"uv", "", 0.0},
-      {"volt", "", 0.0},
-      {"volts", "", 0.0},
-      {"vdc", "", 0.0},
-      {"count", "", 0.0},
-      {"counts", "", 0.0},
-      {"cts", "", 0.0},
-      {"cnt", "", 0.0},
-      {"digit", "", 0.0},
-      {"digits", "", 0.0},
-      {"lsb", "", 0.0},
-      {"adc", "", 0.0},
-      {"raw", "", 0.0},
-      {"v/v", "", 0.0},
-      {"mv/v", "", 0.0},
-      {"bit", "", 0.0},
-      {"bits", "", 0.0},
-      {"adu", "", 0.0},
-      {"a", "", 0.0},
-      {"ma", "", 0.0},
-  };
-  static const std::map<std::string, RecordedUnit> known = [] {
-    std::map<std::string, RecordedUnit> built;
-    for (const Known& unit : list) built.emplace(unit.spelling, RecordedUnit{unit.quantity, unit.si_factor});
-    return built;
-  }();
-  return known;
-}
+/// Units of one quantity and one factor. @param spellings  with '|' before and behind each
+struct Known {
+  const char *quantity, *spellings;
+  double si_factor;
+};
+
+constexpr Known kKnown[] = {
+    {"acceleration", "|m/s2|m/s/s|ms-2|m*s-2|m/sec2|m/s\xB2|", 1.0},
+    {"acceleration", "|mm/s2|mm/s/s|mm/sec2|", 1e-3},
+    {"acceleration", "|cm/s2|cm/s/s|cm/sec2|gal|", 1e-2},
+    {"acceleration", "|um/s2|", 1e-6},
+    {"acceleration", "|mgal|", 1e-5},
+    {"acceleration", "|g|gn|g0|", kG},
+    {"acceleration", "|mg|", 1e-3 * kG},
+    {"acceleration", "|ug|", 1e-6 * kG},
+    {"acceleration", "|in/s2|", kInch},
+    {"acceleration", "|ft/s2|", kFoot},
+    {"velocity", "|m/s|ms-1|m/sec|", 1.0},
+    {"velocity", "|cm/s|cm/sec|", 1e-2},
+    {"velocity", "|mm/s|mm/sec|", 1e-3},
+    {"velocity", "|um/s|", 1e-6},
+    {"velocity", "|nm/s|", 1e-9},
+    {"velocity", "|in/s|ips|", kInch},
+    {"velocity", "|ft/s|", kFoot},
+    {"displacement", "|m|", 1.0},
+    {"displacement", "|cm|", 1e-2},
+    {"displacement", "|mm|", 1e-3},
+    {"displacement", "|um|", 1e-6},
+    {"displacement", "|nm|", 1e-9},
+    {"displacement", "|in|inch|", kInch},
+    {"displacement", "|mil|", 1e-3 * kInch},
+    {"displacement", "|ft|", kFoot},
+    {"force", "|n|", 1.0},
+    {"force", "|kn|", 1e3},
+    {"force", "|lbf|", kPoundForce},
+    {"force", "|kip|", 1e3 * kPoundForce},
+    {"", "|v|mv|uv|volt|volts|vdc|v/v|mv/v|a|ma|", 0.0},
+    {"", "|count|counts|cts|cnt|digit|digits|lsb|adc|raw|bit|bits|adu|", 0.0},
+};
 
 }  // namespace
 
 std::optional<RecordedUnit> recorded_unit(const std::string& unit) {
-  const auto at = known_units().find(plain(unit));
-  return at == known_units().end() ? std::nullopt : std::optional(at->second);
+  const std::string spelling = plain(unit);
+  for (const Known& known : kKnown) {
+    if (is_one_of(known.spellings, spelling)) return RecordedUnit{known.quantity, known.si_factor};
+  }
+  return {};
 }
 
 std::vector<std::string> units_of(const std::string& quantity) {

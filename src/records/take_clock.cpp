@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
 
@@ -64,20 +63,14 @@ void note_faults(RecordInfo& info) {
 }  // namespace
 
 double time_unit_s(const std::string& unit) {
-  struct Unit {
-    std::string_view name;
-    double seconds;
-  };
-  static constexpr std::array<Unit, 27> known = {
-      {{"s", 1.0},          {"sec", 1.0},         {"secs", 1.0},     {"second", 1.0},        {"seconds", 1.0},
-       {"ms", 1e-3},        {"msec", 1e-3},       {"millis", 1e-3},  {"milliseconds", 1e-3}, {"us", 1e-6},
-       {"\xC2\xB5s", 1e-6}, {"\xCE\xBCs", 1e-6},  {"usec", 1e-6},    {"micros", 1e-6},       {"microseconds", 1e-6},
-       {"ns", 1e-9},        {"nsec", 1e-9},       {"nanos", 1e-9},   {"nanoseconds", 1e-9},  {"min", 60.0},
-       {"minutes", 60.0},   {"h", 3600.0},        {"hours", 3600.0}, {"d", 86400.0},         {"day", 86400.0},
-       {"days", 86400.0},   {"millisecond", 1e-3}}};
   const std::string text = lower(trimmed(unit));
-  const auto at = std::find_if(known.begin(), known.end(), [&](const Unit& u) { return u.name == text; });
-  return at == known.end() ? 0.0 : at->seconds;
+  if (is_one_of("|s|sec|secs|second|seconds|", text)) return 1.0;
+  if (is_one_of("|ms|msec|millis|millisecond|milliseconds|", text)) return 1e-3;
+  if (is_one_of("|us|\xC2\xB5s|\xCE\xBCs|usec|micros|microseconds|", text)) return 1e-6;
+  if (is_one_of("|ns|nsec|nanos|nanoseconds|", text)) return 1e-9;
+  if (is_one_of("|min|minutes|", text)) return 60.0;
+  if (is_one_of("|h|hours|", text)) return 3600.0;
+  return is_one_of("|d|day|days|", text) ? 86400.0 : 0.0;
 }
 
 std::string place_of(const RecordInfo& info, Index row) {

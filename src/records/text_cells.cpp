@@ -25,7 +25,7 @@ std::string lower(std::string_view text) {
 }
 
 bool is_one_of(std::string_view words, const std::string& word) {
-  return !word.empty() && words.find('|' + word + '|') != std::string_view::npos;
+  return !word.empty() && word.find('|') == std::string::npos && words.find('|' + word + '|') != std::string_view::npos;
 }
 
 bool is_utf8(std::string_view text) {
