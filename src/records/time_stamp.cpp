@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cctype>
+#include <chrono>
 #include <cmath>
 #include <string>
 #include <utility>
@@ -13,15 +14,6 @@ namespace twindeck::records {
 namespace {
 
 constexpr double kHour = 3600.0, kDay = 86400.0;  ///< [s]
-
-/// Days since 1970-01-01 of the proleptic Gregorian calendar. Reference: Hinnant, "chrono-compatible low-level date
-/// algorithms".
-long days_of(long year, long month, long day) {
-  year -= month <= 2 ? 1 : 0;
-  const long era = (year >= 0 ? year : year - 399) / 400;
-  const long of_era = year - era * 400, of_year = (153 * (month + (month > 2 ? -3 : 9)) + 2) / 5 + day - 1;
-  return era * 146097 + of_era * 365 + of_era / 4 - of_era / 100 + of_year - 719468;
-}
 
 bool is_digit(char c) { return c >= '0' && c <= '9'; }
 
@@ -159,7 +151,10 @@ std::vector<double> days_at(Scanner& in) {
   std::vector<double> days;
   const auto add = [&](long year, long month, long day) {
     if (year < 100) year += year < 70 ? 2000 : 1900;
-    if (month >= 1 && month <= 12 && day >= 1 && day <= 31) days.push_back(static_cast<double>(days_of(year, month, day)));
+    if (month < 1 || month > 12 || day < 1 || day > 31) return;
+    const std::chrono::year_month first{std::chrono::year(static_cast<int>(year)),
+                                        std::chrono::month(static_cast<unsigned>(month))};
+    days.push_back(static_cast<double>(std::chrono::sys_days(first / 1).time_since_epoch().count() + day - 1));
   };
   const auto [a, b, c] = part;
   if (first_digits == 8) {
@@ -215,7 +210,7 @@ std::optional<double> TimeStampReader::next(std::string_view text) {
     if (last_ && *last_ - hours_ - meanings[0] > least * kHour) hours_ += kHour;
     meanings[0] += hours_;
   }
-  std::size_t best = month_first_ && meanings.size() > 1 ? 1 : 0;
+  std::size_t best = 0;
   if (last_) {
     for (std::size_t i = 0; i < meanings.size(); ++i) {
       const double step = meanings[i] - *last_, best_step = meanings[best] - *last_;

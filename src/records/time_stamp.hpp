@@ -28,7 +28,6 @@ class TimeStampReader {
  private:
   std::optional<double> last_;
   double hours_ = 0.0;  ///< [s] of full hours that minutes and seconds passed
-  bool month_first_ = false;
   long exchanged_ = 0;
 };
 
