@@ -40,9 +40,17 @@ struct FeatureRows {
 /// @throws InputError  with file, line and column: an unknown type, condition or channel; a row without a standard deviation; a
 ///         value that its type cannot have; a mode number that is not a whole number from 1; `held_out` other than 0 and 1; two
 ///         rows of one quantity; a row of a load test without a load, or of a channel that cannot show it; a mode whose shape
-///         is zero everywhere; an invalid covariance (covariance.hpp)
+///         is zero everywhere; an invalid covariance (read_covariance)
 [[nodiscard]] FeatureRows read_feature_rows(const std::filesystem::path& folder,
                                             const std::vector<MeasuredCondition>& conditions,
                                             const std::vector<matching::Channel>& channels);
+
+/// Reads covariance.npy of a features folder: one row and column for each row of rows.csv, in its order and units.
+/// @param n_rows  rows of rows.csv
+/// @return (n_rows × n_rows), symmetric to the last bit
+/// @throws InputError  naming the row of rows.csv: another size, an entry that is not finite, a variance that is not positive,
+///         two entries that differ across the diagonal by more than 1e-9 of sqrt(c_ii c_jj), a matrix that is not positive
+///         definite
+[[nodiscard]] Eigen::MatrixXd read_covariance(const std::filesystem::path& file, Eigen::Index n_rows);
 
 }  // namespace twindeck::records

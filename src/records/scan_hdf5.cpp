@@ -2,22 +2,25 @@
 
 #include <fmt/format.h>
 #include <hdf5.h>
+#include <sys/resource.h>
+#include <sys/wait.h>
+#include <unistd.h>
 
 #include <algorithm>
+#include <cerrno>
+#include <csignal>
 #include <fstream>
 #include <functional>
 
 #include "core/error.hpp"
 #include "records/array_choice.hpp"
 #include "records/first_column.hpp"
-#include "records/survives.hpp"
 #include "records/take_clock.hpp"
 #include "records/text_cells.hpp"
 
 namespace twindeck::records {
 namespace fs = std::filesystem;
 using Eigen::Index;
-
 namespace {
 
 /// An HDF5 identifier that is closed in the end.
@@ -281,6 +284,22 @@ Handle opened(const fs::path& file) { return {H5Fopen(file.string().c_str(), H5F
 /// All arrays, cells and attributes.
 void look_through(hid_t file, Found& found) { H5Ovisit(file, H5_INDEX_NAME, H5_ITER_NATIVE, visit_object, &found); }
 
+/// What the child does in place of the caller: no handlers of its own (a step's would clean up its results), no core file, an
+/// end after a minute.
+[[noreturn]] void do_and_end(const std::function<void()>& work) {
+  constexpr unsigned most_s = 60;  // to look through a file takes milliseconds
+  for (const int number : {SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGABRT, SIGINT, SIGTERM, SIGHUP, SIGALRM})
+    std::signal(number, SIG_DFL);
+  const rlimit none{0, 0};
+  ::setrlimit(RLIMIT_CORE, &none);
+  ::alarm(most_s);
+  try {
+    work();
+  } catch (...) {
+  }
+  ::_exit(0);
+}
+
 }  // namespace
 
 RecordInfo scan_hdf5(const fs::path& file, const Visitor& visit) {
@@ -337,6 +356,17 @@ RecordInfo scan_hdf5(const fs::path& file, const Visitor& visit) {
   };
   read_rate(whole, choice, found, info);
   return info;
+}
+
+bool survives(const std::function<void()>& work) {
+  const pid_t child = ::fork();
+  if (child < 0) return true;
+  if (child == 0) do_and_end(work);
+  int status = 0;
+  while (::waitpid(child, &status, 0) < 0) {
+    if (errno != EINTR) return true;
+  }
+  return WIFEXITED(status) && WEXITSTATUS(status) == 0;
 }
 
 }  // namespace twindeck::records

@@ -8,19 +8,21 @@
 #include <cmath>
 #include <cstring>
 #include <limits>
+#include <set>
+#include <string>
+#include <utility>
 
 #include "core/error.hpp"
 #include "records/take_clock.hpp"
 #include "records/text_cells.hpp"
 #include "records/universal_lines.hpp"
-#include "records/universal_names.hpp"
 #include "records/universal_shapes.hpp"
 
 namespace twindeck::records {
 namespace fs = std::filesystem;
 using Eigen::Index;
-
 namespace {
+
 constexpr Index kValuesOfAPart = 65536;  // a part
 
 const char* direction_name(long code) {
@@ -273,6 +275,34 @@ void read_set(UniversalLines& in, const std::string& set_line, const Visitor& vi
   } else if (!read_shape_set(in, set, data)) {
     ++data.others[std::to_string(set)];
     skip_set(in, std::to_string(set));
+  }
+}
+
+/// Calls the channels of a universal file by the first of their title lines or, where it is empty or one for all, by the next
+/// thing that tells them apart: the point of record 6 with its direction, its name, another title line. The others stay names
+/// too, if they are unique.
+/// @param channels  other_names: the five title lines, then what record 6 gives
+void name_by_difference(std::vector<ChannelInfo>& channels) {
+  const auto tells_apart = [&](std::size_t k) {
+    std::set<std::string> seen;
+    return std::all_of(channels.begin(), channels.end(), [&](const ChannelInfo& c) {
+      return k < c.other_names.size() && !c.other_names[k].empty() && c.other_names[k] != "NONE" &&
+             seen.insert(c.other_names[k]).second;
+    });
+  };
+  std::size_t most = 0;
+  for (const ChannelInfo& channel : channels) most = std::max(most, channel.other_names.size());
+  std::vector<std::size_t> telling;
+  for (const std::size_t k : {0, 5, 6, 7, 4, 3, 2, 1}) {  // of other_names: five title lines, then record 6
+    if (k < most && tells_apart(k)) telling.push_back(k);
+  }
+  for (ChannelInfo& channel : channels) {
+    const std::string title = channel.other_names.front();
+    std::vector<std::string> names;
+    for (const std::size_t k : telling) names.push_back(channel.other_names[k]);
+    const std::string point = channel.point + channel.direction;
+    channel.name = !names.empty() ? names.front() : title.empty() || title == "NONE" ? point : title;
+    channel.other_names = std::move(names);
   }
 }
 

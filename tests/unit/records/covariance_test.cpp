@@ -1,12 +1,11 @@
 /// Oracle: the definition of a covariance; matrices of two and three rows whose eigenvalues are known by hand.
-#include "records/covariance.hpp"
-
 #include <gtest/gtest.h>
 
 #include <filesystem>
 
 #include "core/error.hpp"
 #include "npy_double.hpp"
+#include "records/feature_rows.hpp"
 
 namespace twindeck::records {
 namespace {

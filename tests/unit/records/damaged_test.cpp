@@ -12,7 +12,7 @@
 #include "core/error.hpp"
 #include "npy_double.hpp"
 #include "records/inspect.hpp"
-#include "records/survives.hpp"
+#include "records/scan_hdf5.hpp"
 #include "refusal.hpp"
 #include "same_samples.hpp"
 #include "universal_writer.hpp"
