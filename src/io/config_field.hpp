@@ -33,10 +33,5 @@ struct FieldTable::Field {
 /// @param above  the text before the key in an array of tables ("damper[2].")
 [[noreturn]] void refuse_unknown_key(const std::string& file, long line, const std::string& above, const std::string& key,
                                      const std::vector<std::string>& known);
-/// "> 0", "in [0, 1]", "in ]0, 1]" or "".
-[[nodiscard]] std::string range_text(const Range& range);
-[[nodiscard]] bool inside(const Range& range, double value);
-/// A finite number in `unit` from a number or a string with unit. @throws InputError
-[[nodiscard]] double read_number(const TomlValue& node, const std::string& unit, const Range& range, const Place& place);
 
 }  // namespace twindeck::io

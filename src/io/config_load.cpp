@@ -19,6 +19,26 @@ namespace {
 
 using Fields = std::vector<std::shared_ptr<FieldTable::Field>>;
 
+std::string last_part(const std::string& key) { return key.substr(key.rfind('.') + 1); }  // npos + 1 is 0
+
+/// The known key that was meant: its last part misspelt, else its table, else the right word in the wrong table; "" if none is
+/// near.
+std::string meant_by(const std::string& key, const std::vector<std::string>& known) {
+  const std::string word = last_part(key);
+  const std::string table = key.substr(0, key.size() - word.size());
+  std::vector<std::string> siblings;
+  for (const std::string& name : known) {
+    if (name.starts_with(table) && name.find('.', table.size()) == std::string::npos)
+      siblings.push_back(name.substr(table.size()));
+  }
+  if (const std::string nearest = nearest_name(word, siblings); !nearest.empty()) return table + nearest;
+  if (std::string nearest = nearest_name(key, known); !nearest.empty()) return nearest;
+  for (const std::string& name : known) {
+    if (last_part(name) == word) return name;
+  }
+  return "";
+}
+
 /// The fields of one table of TOML (the file's, or one element's of an array of tables), with what messages need.
 struct Reader {
   const Fields& fields;
@@ -130,6 +150,18 @@ void Reader::elements(FieldTable::Field& field, const TomlValue& node, const Pla
 }
 
 }  // namespace
+
+void refuse_unknown_key(const std::string& file, long line, const std::string& above, const std::string& key,
+                        const std::vector<std::string>& known) {
+  const std::string meant = meant_by(key, known);
+  std::string mend = "no key is known here";
+  if (!meant.empty()) {
+    mend = "did you mean '" + above + meant + "'?";
+  } else if (!known.empty()) {
+    mend = fmt::format("known keys are {}", fmt::join(known, ", "));
+  }
+  throw InputError({file, line, ""}, "unknown key '" + above + key + "'", mend);
+}
 
 void FieldTable::load(const fs::path& file) {
   const Reader reader{fields_, file.string(), "", retired_};

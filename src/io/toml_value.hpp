@@ -1,7 +1,9 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <string>
+#include <string_view>
 #include <variant>
 #include <vector>
 
@@ -40,9 +42,20 @@ struct TomlEntry {
 [[nodiscard]] std::string shown(const TomlValue& value);
 /// @throws InputError  at `place`, if the value is not a text
 [[nodiscard]] std::string text_of(const TomlValue& value, const Place& place);
+/// A number, whole or not; nothing for another value.
+[[nodiscard]] std::optional<double> number_of(const TomlValue& value);
 /// Shortest text that reads back to the same double. Whole numbers have no decimal point (readers accept integers).
 [[nodiscard]] std::string toml_number(double value);
 /// A basic TOML string with its escapes.
 [[nodiscard]] std::string toml_text(const std::string& text);
+
+/// Levels of tables and arrays, and names of one dotted key, that a TOML text may have. Our own files need four. The parser and
+/// the destructors of what it builds call themselves once a level, so that a file of a million brackets or dots ends on the
+/// stack.
+inline constexpr int most_toml_levels = 32;
+
+/// Line (from 1) at which a TOML text first goes deeper than `most_toml_levels`, in brackets or in the names of a dotted key;
+/// nothing for a text that does not. Strings and comments are passed over; whether the text is TOML at all is not checked.
+[[nodiscard]] std::optional<long> line_nested_too_deep(std::string_view toml);
 
 }  // namespace twindeck::io

@@ -20,9 +20,7 @@ const std::vector<std::string>& action_names() {
 }
 
 double factor_of(const io::TomlEntry& entry, const Place& place) {
-  const auto* number = entry.value.as<double>();
-  const auto* whole = entry.value.as<long>();
-  const double factor = number != nullptr ? *number : whole != nullptr ? static_cast<double>(*whole) : 0.0;
+  const double factor = io::number_of(entry.value).value_or(0.0);
   if (!(factor > 0.0) || !std::isfinite(factor))
     throw InputError(place, "is " + io::shown(entry.value) + ", expected a number above 0",
                      "give what the channel's values are to be multiplied by; a wrong sign is the action \"reverse\"");

@@ -27,17 +27,13 @@ std::vector<std::string> names_of(const std::vector<MeasuredCondition>& conditio
 }
 
 double finite_number(const io::TomlEntry& entry, const Place& place) {
-  double value = 0.0;
-  if (const auto* number = entry.value.as<double>())
-    value = *number;
-  else if (const auto* whole = entry.value.as<long>())
-    value = static_cast<double>(*whole);
-  else
+  const auto value = io::number_of(entry.value);
+  if (!value)
     throw InputError(place, "is " + io::shown(entry.value) + ", expected a number", "write it without quotes and unit");
-  if (!std::isfinite(value))
+  if (!std::isfinite(*value))
     throw InputError(place, "is " + io::shown(entry.value) + ", expected a finite number",
                      "leave the key out where it is unknown");
-  return value;
+  return *value;
 }
 
 double number_from(const io::TomlEntry& entry, const Place& place, double least) {

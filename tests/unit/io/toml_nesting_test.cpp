@@ -1,6 +1,4 @@
 /// Oracle: counting by hand; and that a file of a million levels is a message, where the parser alone runs off the stack.
-#include "io/toml_nesting.hpp"
-
 #include <gtest/gtest.h>
 
 #include "io/toml_value.hpp"
