@@ -10,8 +10,8 @@
 #include <utility>
 
 #include "core/error.hpp"
+#include "model_io/deck_model.hpp"
 #include "model_io/names.hpp"
-#include "model_io/rigid_arm.hpp"
 
 /// Supports and ties of nodes. CDWRITE writes rigid regions as equations, so that those of two nodes are compared with a rigid
 /// link.

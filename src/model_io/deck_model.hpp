@@ -1,7 +1,9 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <Eigen/Geometry>
 #include <array>
+#include <cmath>
 #include <filesystem>
 #include <functional>
 #include <map>
@@ -79,15 +81,16 @@ struct DeckModel {
   void follow_first(const std::string& name, const DeckEquation& equation);
   /// Whether the equations say what `slave` does as part of `master`, each one direction, all of them together.
   [[nodiscard]] bool is_rigid_link(const std::vector<const DeckEquation*>& equations, int master, int slave) const;
-  /// A displacement or rotation of a node that a mean counts (weighted_mean.hpp).
+  /// A displacement or rotation of a node that a mean counts.
   struct Sample {
     int node = -1;
     Eigen::RowVector3d direction;  ///< unit, global axes
     bool rotation = false;
-    double weight = 1.0;
+    double weight = 1.0;  ///< above 0
   };
-  /// The reference node moves as the mean of the samples in the directions that are asked for. @param mend where these do not
-  /// determine one
+  /// The reference node moves as the weighted mean of the samples, as Nastran's RBE3 and Abaqus' distributing coupling have it,
+  /// in the directions that are asked for: q with min sum w (u - S q)². A rotation counts with the square of the mean distance
+  /// of the samples, so that all terms are lengths. @param mend where the samples do not determine one
   void tie_to_mean(const DeckPlace& at, const std::function<std::string(int)>& name, int reference,
                    const std::vector<Sample>& samples, const Directions& wanted, const std::string& mend);
 
@@ -114,5 +117,26 @@ void for_each_joined_node(fe::Model& model, const std::function<void(int&)>& f);
 /// @param now  new position of each node (n_nodes); -1: left out, with its supports. No element, spring, link, constraint or
 ///             mass may name a node that is left out.
 void renumber_nodes(fe::Model& model, const std::vector<int>& now);
+
+/// Of a node that follows another as the end of a rigid arm r, u_s = u_m + theta_m × r, theta_s = theta_m: factor of the
+/// master's degree of freedom `from` (0-5) in the slave's `to`.
+inline double rigid_arm_factor(const Eigen::Vector3d& r, int to, int from) {
+  if (to == from) return 1.0;
+  if (to > 2 || from < 3) return 0.0;
+  return Eigen::Vector3d::Unit(from - 3).cross(r)[to];
+}
+
+/// One displacement of `slave` that follows `master` so; nodes by their positions in the model.
+inline fe::Constraint at_rigid_arm(const std::string& name, const fe::Model& model, int master, int slave, int direction) {
+  constexpr double nothing = 1e-12;  ///< [-] of the arm: rounding of coordinates
+  const Eigen::Vector3d r =
+      model.nodes[static_cast<std::size_t>(slave)].x_m - model.nodes[static_cast<std::size_t>(master)].x_m;
+  fe::Constraint c{name, slave, direction, {{master, direction, 1.0}}};
+  for (int about = 3; about < 6 && direction < 3; ++about) {
+    const double factor = rigid_arm_factor(r, direction, about);
+    if (std::abs(factor) > nothing * r.norm()) c.terms.push_back({master, about, factor});
+  }
+  return c;
+}
 
 }  // namespace twindeck::model_io
