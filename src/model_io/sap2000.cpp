@@ -6,58 +6,156 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <deque>
+#include <map>
 #include <numbers>
 #include <set>
 
 #include "core/error.hpp"
+#include "io/text_lines.hpp"
+#include "model_io/deck_card.hpp"
 #include "model_io/deck_model.hpp"
 #include "model_io/deck_units.hpp"
-#include "model_io/sap2000_tables.hpp"
 
 namespace twindeck::model_io {
 namespace {
 
+/// One row: `Joint=1   XorR=0   Y=0`. Keys are compared in upper case, values stand as written, without their quotes.
+struct SapRow : DeckFields {
+  std::vector<std::string> keys;
+
+  [[nodiscard]] bool has(const std::string& key) const { return position(key) < keys.size(); }
+  /// Value of a key, or `fallback`.
+  [[nodiscard]] std::string get(const std::string& key, const std::string& fallback = "") const;
+  /// Value of a key that must be there.
+  [[nodiscard]] std::string required(const std::string& key) const;
+  [[nodiscard]] double number_of(const std::string& key) const;
+  [[nodiscard]] double number_of(const std::string& key, double fallback) const;
+  [[nodiscard]] bool yes(const std::string& key) const;
+  /// Whether an assignment says what holds without it: factors of 1 (keys ...Mod, f11 ... v23), offsets of 0, the centroid.
+  [[nodiscard]] bool is_neutral() const;
+
+ private:
+  [[nodiscard]] std::size_t position(const std::string& key) const;
+};
+
+/// The rules of the format: `TABLE:  "NAME"` opens a table, each line is a row, a line that ends with ` _` goes on in the next.
+class SapTables {
+ public:
+  /// @throws InputError  if it cannot be opened, or a row stands above the first table
+  explicit SapTables(const std::filesystem::path& file);
+
+  /// Rows of a table; none for one that the file does not have.
+  [[nodiscard]] const std::vector<SapRow>& rows(const std::string& table) const;
+  [[nodiscard]] const std::map<std::string, std::vector<SapRow>>& all() const { return tables_; }
+  [[nodiscard]] DeckPlace whole(const std::string& table) const { return {&files_.front(), 0, table}; }
+
+ private:
+  std::deque<std::filesystem::path> files_;  ///< the file; rows point to it
+  std::map<std::string, std::vector<SapRow>> tables_;
+};
+
+/// Adds the cells `Key=value` and `Key="a value"` of a line to a row.
+void add_cells(const std::string& line, SapRow& row) {
+  for (std::size_t at = 0; at < line.size();) {
+    const std::size_t start = line.find_first_not_of(" \t", at), equals = line.find('=', start);
+    if (start == std::string::npos || equals == std::string::npos) return;
+    const bool quoted = equals + 1 < line.size() && line[equals + 1] == '"';
+    const std::size_t first = equals + (quoted ? 2 : 1);
+    const std::size_t end = std::min(line.find_first_of(quoted ? "\"" : " \t", first), line.size());
+    row.keys.push_back(upper_case(trimmed(line.substr(start, equals - start))));
+    row.fields.push_back(trimmed(line.substr(first, end - first)));
+    at = end + (quoted ? 1 : 0);
+  }
+}
+
+std::size_t SapRow::position(const std::string& key) const {
+  return static_cast<std::size_t>(std::find(keys.begin(), keys.end(), upper_case(key)) - keys.begin());
+}
+
+std::string SapRow::get(const std::string& key, const std::string& fallback) const {
+  return has(key) ? fields[position(key)] : fallback;
+}
+
+std::string SapRow::required(const std::string& key) const {
+  if (blank(position(key))) fail("has no " + key, "complete the row");
+  return fields[position(key)];
+}
+
+double SapRow::number_of(const std::string& key) const {
+  (void)required(key);
+  return number(position(key));
+}
+
+double SapRow::number_of(const std::string& key, double fallback) const { return number_or(position(key), fallback); }
+
+bool SapRow::yes(const std::string& key) const { return word(position(key)) == "YES"; }
+
+bool SapRow::is_neutral() const {
+  const bool factors = label.ends_with(" MODIFIERS"),
+             offsets = label.starts_with("FRAME INSERTION") || label.starts_with("FRAME OFFSET");
+  if (!factors && !offsets) return false;
+  for (std::size_t i = 1; i < fields.size(); ++i) {
+    const bool is_number = fields[i].find_first_of("+-.0123456789") == 0,
+               centroid = fields[i].starts_with("10 ") || fields[i].starts_with("11 ");
+    if (keys[i] == "CARDINALPT" ? !centroid : is_number && number(i) != (factors ? 1.0 : 0.0)) return false;
+  }
+  return true;
+}
+
+SapTables::SapTables(const std::filesystem::path& file) {
+  files_.push_back(file);
+  io::TextLines stream(file, io::longest_text);
+  if (!stream.opened()) whole("").fail("cannot be opened", "give the path of an .s2k file");
+  std::vector<SapRow>* open = nullptr;
+  std::string text, label;
+  bool goes_on = false;
+  for (long number = 1; stream.next(text); ++number) {
+    std::string line = trimmed(text);
+    if (line.starts_with("TABLE:")) {
+      const std::size_t quote = line.find('"'), end = line.find('"', quote + 1);
+      if (end == std::string::npos) DeckPlace{&files_.front(), number, "TABLE"}.fail("has no name", "write TABLE:  \"NAME\"");
+      label = upper_case(line.substr(quote + 1, end - quote - 1));
+      open = &tables_[label];
+      continue;
+    }
+    if (line.empty() || line.starts_with("END TABLE") || line.starts_with("File ")) continue;
+    if (open == nullptr)
+      DeckPlace{&files_.front(), number, ""}.fail("a row stands before the first table", "begin with TABLE:");
+    if (!goes_on) static_cast<DeckPlace&>(open->emplace_back()) = {&files_.front(), number, label};
+    goes_on = line.ends_with(" _");
+    if (goes_on) line.pop_back();
+    add_cells(line, open->back());
+  }
+}
+
+const std::vector<SapRow>& SapTables::rows(const std::string& table) const {
+  static const std::vector<SapRow> none;
+  const auto found = tables_.find(table);
+  return found == tables_.end() ? none : found->second;
+}
+
 const std::array<std::string, 6> joint_directions = {"U1", "U2", "U3", "R1", "R2", "R3"};
 
 /// Tables of the structure that are read, and beginnings of names of tables that say nothing about stiffness and mass.
-const std::set<std::string>& sap_tables_read() {
-  static const std::set<std::string> names = {"JOINT COORDINATES",
-                                              "JOINT RESTRAINT ASSIGNMENTS",
-                                              "JOINT SPRING ASSIGNMENTS 1 - UNCOUPLED",
-                                              "JOINT ADDED MASS ASSIGNMENTS",
-                                              "CONNECTIVITY - FRAME",
-                                              "CONNECTIVITY - AREA",
-                                              "FRAME SECTION ASSIGNMENTS",
-                                              "FRAME SECTION PROPERTIES 01 - GENERAL",
-                                              "FRAME LOCAL AXES ASSIGNMENTS 1 - TYPICAL",
-                                              "FRAME RELEASE ASSIGNMENTS 1 - GENERAL",
-                                              "FRAME PROPERTY MODIFIERS",
-                                              "AREA SECTION ASSIGNMENTS",
-                                              "AREA SECTION PROPERTIES",
-                                              "MATERIAL PROPERTIES 02 - BASIC MECHANICAL PROPERTIES",
-                                              "MASS SOURCE",
-                                              "MASSES 1 - MASS SOURCE"};
+const std::vector<std::string>& sap_tables_read() {
+  static const std::vector<std::string> names = split_at(
+      "JOINT COORDINATES|JOINT RESTRAINT ASSIGNMENTS|JOINT SPRING ASSIGNMENTS 1 - UNCOUPLED|"
+      "JOINT ADDED MASS ASSIGNMENTS|CONNECTIVITY - FRAME|CONNECTIVITY - AREA|FRAME SECTION ASSIGNMENTS|"
+      "FRAME SECTION PROPERTIES 01 - GENERAL|FRAME LOCAL AXES ASSIGNMENTS 1 - TYPICAL|"
+      "FRAME RELEASE ASSIGNMENTS 1 - GENERAL|FRAME PROPERTY MODIFIERS|AREA SECTION ASSIGNMENTS|"
+      "AREA SECTION PROPERTIES|MATERIAL PROPERTIES 02 - BASIC MECHANICAL PROPERTIES|MASS SOURCE|"
+      "MASSES 1 - MASS SOURCE",
+      '|');
   return names;
 }
 
 bool says_nothing(const std::string& table) {
-  static const std::vector<std::string> starts = {"JOINT LOADS",
-                                                  "JOINT PATTERN",
-                                                  "FRAME LOADS",
-                                                  "FRAME OUTPUT",
-                                                  "FRAME DESIGN",
-                                                  "FRAME AUTO MESH",
-                                                  "FRAME SECTION PROPERTIES 02",
-                                                  "FRAME SECTION PROPERTIES 03",
-                                                  "AREA LOADS",
-                                                  "AREA AUTO MESH",
-                                                  "AREA DESIGN",
-                                                  "AREA SECTION PROPERTY DESIGN",
-                                                  "MATERIAL LIST",
-                                                  "MATERIAL PROPERTIES",
-                                                  "MASSES 2",
-                                                  "AREA EDGE",
-                                                  "AREA LOCAL AXES"};  // isotropic
+  static const std::vector<std::string> starts = split_at(  // axes of areas too: materials are isotropic
+      "JOINT LOADS|JOINT PATTERN|FRAME LOADS|FRAME OUTPUT|FRAME DESIGN|FRAME AUTO MESH|FRAME SECTION PROPERTIES 02|"
+      "FRAME SECTION PROPERTIES 03|AREA LOADS|AREA AUTO MESH|AREA DESIGN|AREA SECTION PROPERTY DESIGN|"
+      "MATERIAL LIST|MATERIAL PROPERTIES|MASSES 2|AREA EDGE|AREA LOCAL AXES",
+      '|');
   return std::any_of(starts.begin(), starts.end(), [&](const std::string& start) { return table.starts_with(start); });
 }
 
@@ -67,7 +165,8 @@ void refuse_what_is_not_carried(const SapTables& tables) {
   for (const auto& [name, rows] : tables.all()) {
     const bool of_structure =
         std::any_of(structural.begin(), structural.end(), [&, &table = name](const auto& s) { return table.starts_with(s); });
-    if (!of_structure || sap_tables_read().contains(name) || says_nothing(name)) continue;
+    const bool read = std::find(sap_tables_read().begin(), sap_tables_read().end(), name) != sap_tables_read().end();
+    if (!of_structure || read || says_nothing(name)) continue;
     const auto speaking = std::find_if(rows.begin(), rows.end(), [](const SapRow& row) { return !row.is_neutral(); });
     if (speaking == rows.end()) continue;
     speaking->fail("this table is not carried, and the structure would be another without it",
