@@ -9,10 +9,11 @@
 #include "core/error.hpp"
 #include "io/atomic.hpp"
 #include "io/csv.hpp"
+#include "io/path_name.hpp"
 #include "io/toml_value.hpp"
+#include "matrix_io/matrix_market.hpp"
 #include "model_io/folder_parts.hpp"
 #include "model_io/load_cases.hpp"
-#include "model_io/matrix_elements.hpp"
 #include "model_io/names.hpp"
 
 namespace twindeck::model_io {
@@ -33,6 +34,26 @@ struct ParameterEntry {
         .number("initial", initial, "", parameter_range(), "value as the model stands", true)
         .number("lower", lower, "", parameter_range(), "lower bound", true)
         .number("upper", upper, "", parameter_range(), "upper bound", true);
+    return table;
+  }
+};
+
+/// [[matrix_element]] as it stands in the file: an element given by matrices, which lie in the folder matrices/ (Matrix Market,
+/// general or symmetric).
+struct MatrixElementEntry {
+  std::string name, group, stiffness, damping, mass;  ///< the last three are files, relative to the model folder; "" = none
+  std::vector<std::string> dofs;                      ///< "node:direction"
+  long internal = 0;
+
+  io::FieldTable fields() {
+    io::FieldTable table;
+    table.path_name("name", name, "matrix element", "name of the element, and of the files of its matrices", true)
+        .text("group", group, "group, as of other elements")
+        .texts("dofs", dofs, "degrees of freedom in the order of the matrices: \"node:direction\"")
+        .integer("internal", internal, {0.0, 10000.0}, "unknowns of its own that follow them")
+        .text("stiffness", stiffness, "file of K [N/m, N m/rad]")
+        .text("damping", damping, "file of C [N s/m]")
+        .text("mass", mass, "file of M [kg]");
     return table;
   }
 };
@@ -197,6 +218,71 @@ std::string text_list(const std::vector<std::string>& texts) {
   return "[" + list + "]";
 }
 
+fe::MatrixElement to_matrix_element(const std::filesystem::path& folder, const NameIndex& index,
+                                    const MatrixElementEntry& entry) {
+  fe::MatrixElement element;
+  const auto error = [&](const std::string& anchor, const std::string& problem, const std::string& mend) {
+    return key_error(folder / "model.toml", "\"" + anchor + "\"", "matrix_element " + entry.name, problem, mend);
+  };
+  element.name = entry.name;
+  element.group = entry.group;
+  element.internal = static_cast<int>(entry.internal);
+  for (const std::string& text : entry.dofs) {
+    const auto [node, direction] = index.displacement(text);
+    if (node < 0 || direction < 0)
+      throw error(text,
+                  fmt::format("'{}' is no degree of freedom of a node of nodes.csv, expected \"node:direction\" with {}", text,
+                              one_of(direction_names())),
+                  "write for example \"17:z\"");
+    element.dofs.push_back({node, direction});
+  }
+  if (element.dofs.empty())
+    throw error(entry.name, "'dofs' is missing or empty", "list the degrees of freedom that it acts on");
+  const Eigen::Index n = std::ssize(element.dofs) + element.internal;
+  const auto read = [&](const std::string& file) -> Eigen::MatrixXd {
+    if (file.empty()) return {};
+    if (const Eigen::Index rows = matrix_io::matrix_market_size(folder / file).rows; rows != n)
+      throw error(file,
+                  fmt::format("{} holds a {} x {} matrix, expected {} x {}: {} degrees of freedom and {} unknowns of its own",
+                              file, rows, rows, n, n, element.dofs.size(), element.internal),
+                  "mend the size, or list the degrees of freedom that belong to it");
+    return matrix_io::read_square_matrix(folder / file);
+  };
+  element.stiffness = read(entry.stiffness);
+  element.damping = read(entry.damping);
+  element.mass = read(entry.mass);
+  return element;
+}
+
+/// "17:z"
+std::string displacement_name(const fe::Model& model, int node, int direction) {
+  return fmt::format("{}:{}", model.nodes[static_cast<std::size_t>(node)].id,
+                     direction_names()[static_cast<std::size_t>(direction)]);
+}
+
+/// The tables of model.toml; the matrices are written to matrices/<name>_K.mtx, _C.mtx, _M.mtx.
+std::string write_matrix_elements(const fe::Model& model, const std::filesystem::path& folder) {
+  std::string text;
+  if (!model.matrix_elements.empty()) std::filesystem::create_directories(folder / "matrices");
+  for (const fe::MatrixElement& element : model.matrix_elements) {
+    io::check_path_name(element.name, "matrix element", {model.source, 0, "matrix_element"});
+    std::vector<std::string> dofs;
+    for (const fe::MatrixElement::Dof& dof : element.dofs) dofs.push_back(displacement_name(model, dof.node, dof.direction));
+    text += fmt::format("\n[[matrix_element]]\nname = {}\ngroup = {}\ndofs = {}\ninternal = {}\n", io::toml_text(element.name),
+                        io::toml_text(element.group), text_list(dofs), element.internal);
+    const auto write = [&](const Eigen::MatrixXd& matrix, const char* key, const char* letter) {
+      if (matrix.size() == 0) return;
+      const std::string file = fmt::format("matrices/{}_{}.mtx", element.name, letter);
+      matrix_io::write_square_matrix(matrix, folder / file);
+      text += fmt::format("{} = \"{}\"\n", key, file);
+    };
+    write(element.stiffness, "stiffness", "K");
+    write(element.damping, "damping", "C");
+    write(element.mass, "mass", "M");
+  }
+  return text;
+}
+
 }  // namespace
 
 std::string describe_model_toml() { return ModelEntry{}.fields().describe(); }
@@ -252,10 +338,7 @@ void write_model_toml(const fe::Model& model, const std::filesystem::path& folde
       lumped);
   const auto& p = model.prestress;
   std::vector<std::string> conditions;
-  for (const auto& c : p.conditions) {
-    conditions.push_back(fmt::format("{}:{}", model.nodes[static_cast<std::size_t>(c.node)].id,
-                                     direction_names()[static_cast<std::size_t>(c.dof)]));
-  }
+  for (const auto& c : p.conditions) conditions.push_back(displacement_name(model, c.node, c.dof));
   text += fmt::format(
       "[prestress]\nrule = \"{}\"\ngeometric_stiffness = {}\nminimum_pull = {}\nridge = {}\nsite_weight = {}\ndisplacements = "
       "\"{}\"\nload_steps = {}\nconditions = {}\n",

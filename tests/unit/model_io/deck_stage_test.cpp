@@ -7,8 +7,8 @@
 #include "deck_table.hpp"
 #include "fe/prestress.hpp"
 #include "model_io/ansys.hpp"
+#include "model_io/any_model_folder.hpp"
 #include "model_io/inp.hpp"
-#include "model_io/read_model.hpp"
 #include "model_io/write_model.hpp"
 #include "nastran_deck.hpp"
 

@@ -4,8 +4,8 @@
 #include "model_io/matrix_model.hpp"
 
 #include "matrix_io/matrix_market.hpp"
+#include "model_io/any_model_folder.hpp"
 #include "model_io/export_matrices.hpp"
-#include "model_io/read_model.hpp"
 #include "test_folder.hpp"
 
 namespace twindeck::model_io::test {

@@ -2,7 +2,7 @@
 /// name.
 #include <vector>
 
-#include "model_io/read_model.hpp"
+#include "model_io/any_model_folder.hpp"
 #include "model_io/write_model.hpp"
 #include "test_folder.hpp"
 

@@ -1,7 +1,7 @@
 /// Oracle: identity (what was written comes back), the VTK numbers of a hexahedron (type 12, eight points), and messages that
 /// name file, line and column.
+#include "model_io/any_model_folder.hpp"
 #include "model_io/inp.hpp"
-#include "model_io/read_model.hpp"
 #include "model_io/vtu.hpp"
 #include "model_io/write_model.hpp"
 #include "test_folder.hpp"

@@ -4,7 +4,7 @@
 #include "dynamics/eigenmodes.hpp"
 #include "fe/assembly.hpp"
 #include "fe/cable.hpp"
-#include "model_io/read_model.hpp"
+#include "model_io/any_model_folder.hpp"
 #include "model_io/write_model.hpp"
 #include "test_folder.hpp"
 

@@ -1,8 +1,8 @@
 /// Oracles: identity (a shell of three nodes comes back from a folder, from an .inp file of ours and from a deck with each of
 /// the four names of such an element), and messages that name line and column.
 #include "fe/assembly.hpp"
+#include "model_io/any_model_folder.hpp"
 #include "model_io/inp.hpp"
-#include "model_io/read_model.hpp"
 #include "model_io/write_model.hpp"
 #include "test_folder.hpp"
 
