@@ -5,7 +5,6 @@
 #include <map>
 
 #include "io/text_lines.hpp"
-#include "model_io/ansys_blocks.hpp"
 #include "model_io/ansys_ignored.hpp"
 #include "model_io/ansys_mesh.hpp"
 #include "model_io/ansys_parts.hpp"

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 
 #include "core/error.hpp"
 #include "model_io/ansys_ignored.hpp"

@@ -7,7 +7,6 @@
 
 #include "core/error.hpp"
 #include "model_io/inp_attachments.hpp"
-#include "model_io/inp_links.hpp"
 #include "model_io/inp_mesh.hpp"
 #include "model_io/inp_parts.hpp"
 #include "model_io/inp_sections.hpp"

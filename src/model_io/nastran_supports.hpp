@@ -1,7 +1,5 @@
 #pragma once
 
-#include <array>
-
 #include "model_io/nastran_parts.hpp"
 
 /// Inside of the library: cards that hold grids or tie them to each other.
