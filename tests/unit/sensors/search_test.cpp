@@ -1,5 +1,3 @@
-#include "sensors/search.hpp"
-
 #include <gtest/gtest.h>
 
 #include <Eigen/LU>
@@ -10,6 +8,7 @@
 #include "core/error.hpp"
 #include "core/random.hpp"
 #include "sensors/score.hpp"
+#include "sensors/setup_scores.hpp"
 
 namespace twindeck::sensors {
 namespace {
