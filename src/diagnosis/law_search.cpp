@@ -147,28 +147,6 @@ void weigh_fit(const LawSetting& setting, const LawSearch& search, LawAccount& a
   account.scored = true;
 }
 
-/// Fits a set with its causes in the model from each start of the parameters. A single factor starts from both sides of one:
-/// the base may have moved a parameter of several places for one of them, and the others then look as if they had changed.
-void refine_by_law(const LawSetting& setting, const LawSearch& search, LawAccount& account,
-                   const std::vector<VectorXd>& starts) {
-  std::vector<std::vector<Cause>> causes = {search.base.causes};
-  causes[0].insert(causes[0].end(), account.causes.begin(), account.causes.end());
-  if (account.members.size() == 1 && account.across.size() > 0) {
-    causes.push_back(causes[0]);
-    causes[1].back().a = account.across;
-  }
-  const VectorXd tau = account.evidence.tau;
-  std::vector<VectorXd> found;
-  for (const std::vector<Cause>& start : causes)
-    for (const VectorXd& x : starts) {
-      Fit with = setting.informed.fit(start, x);
-      const auto is_same = [&](const VectorXd& before) { return (with.map.x - before).norm() < kOneFit; };
-      if (!with.made() || std::any_of(found.begin(), found.end(), is_same)) continue;
-      found.push_back(with.map.x);
-      weigh_fit(setting, search, account, tau, std::move(with));
-    }
-}
-
 /// A fit of an account under its own scales, what it holds for none of the model's modes left open, from where the law says
 /// that the unknowns are. The evidence is linear about a fit: far from it, it promises what the model does not hold.
 Fit fit_by_own_scales(const LawSetting& setting, const LawAccount& account) {
@@ -191,15 +169,8 @@ Fit fit_by_own_scales(const LawSetting& setting, const LawAccount& account) {
   return Inference(map, setting.plain.candidates()).fit(causes, account.with.map.x.head(std::ssize(plain.nuisances())));
 }
 
-/// Weight from which an account is worth fits of its own.
-double worth_a_fit(const LawSearch& search) {
-  const double best = search.accounts.front().log_weight;
-  return best - std::max(kNear, kNearShare * (best - search.none.log_evidence));
-}
-
 /// Puts a refined account to its fit under its own scales, whatever that takes from the weight, and on while that grows.
 void settle(const LawSetting& setting, const LawSearch& search, LawAccount& account) {
-  account.settled = true;
   for (int round = 0; round < kLeadingRounds; ++round) {
     LawAccount anew = account;
     anew.system.reset();
@@ -210,16 +181,28 @@ void settle(const LawSetting& setting, const LawSearch& search, LawAccount& acco
   }
 }
 
-/// Settles the leading accounts, until the best ones have been.
-void settle_leaders(const LawSetting& setting, LawSearch& search) {
-  std::vector<LawAccount*> these;
-  do {
-    sort_accounts(search.accounts);
-    these.clear();
-    for (LawAccount& account : search.accounts)
-      if (account.refined() && !account.settled && account.log_weight > worth_a_fit(search)) these.push_back(&account);
-    parallel_for(these.size(), [&](std::size_t i) { settle(setting, search, *these[i]); });
-  } while (!these.empty());
+/// Fits a set with its causes in the model from each start of the parameters. A single factor starts from both sides of one:
+/// the base may have moved a parameter of several places for one of them, and the others then look as if they had changed. The
+/// best of them is settled.
+void refine_by_law(const LawSetting& setting, const LawSearch& search, LawAccount& account,
+                   const std::vector<VectorXd>& starts) {
+  std::vector<std::vector<Cause>> causes = {search.base.causes};
+  causes[0].insert(causes[0].end(), account.causes.begin(), account.causes.end());
+  if (account.members.size() == 1 && account.across.size() > 0) {
+    causes.push_back(causes[0]);
+    causes[1].back().a = account.across;
+  }
+  const VectorXd tau = account.evidence.tau;
+  std::vector<VectorXd> found;
+  for (const std::vector<Cause>& start : causes)
+    for (const VectorXd& x : starts) {
+      Fit with = setting.informed.fit(start, x);
+      const auto is_same = [&](const VectorXd& before) { return (with.map.x - before).norm() < kOneFit; };
+      if (!with.made() || std::any_of(found.begin(), found.end(), is_same)) continue;
+      found.push_back(with.map.x);
+      weigh_fit(setting, search, account, tau, std::move(with));
+    }
+  if (account.refined()) settle(setting, search, account);
 }
 
 /// Scales that a set starts from: those of its best member that was scored, with what is left over in each of its contrasts.
@@ -238,24 +221,25 @@ VectorXd start_of_set(const LawSearch& search, const LawAccount& set) {
   return out;
 }
 
-/// A better optimiser must not look like a further cause: what the leading set's parameters do for each of its causes alone.
-void fit_alone_from_sets(const LawSetting& setting, LawSearch& search) {
+/// A better optimiser must look neither like a further cause nor like another one: the rivals of the leader are fitted from its
+/// parameters too. From their own starts they may have paired a measured mode with another mode of the model.
+void fit_from_leader(const LawSetting& setting, LawSearch& search) {
   sort_accounts(search.accounts);
-  const LawAccount leader = search.accounts.front();
-  if (leader.members.size() < 2 || !leader.refined()) return;
+  if (search.accounts.empty() || !search.accounts.front().refined()) return;
+  const LawAccount& leader = search.accounts.front();
   const VectorXd x = leader.with.map.x.head(static_cast<Index>(setting.plain.map().nuisances().size()));
-  const auto is_of_leader = [&](int m) {
-    return std::find(leader.members.begin(), leader.members.end(), m) != leader.members.end();
-  };
+  const double least =
+      leader.log_weight - std::max(kNearFamily, kFamilyShareOf * (leader.log_weight - search.none.log_evidence));
+  std::vector<LawAccount*> rivals;
   for (LawAccount& account : search.accounts)
-    if (account.members.size() < leader.members.size() && account.refined() &&
-        std::all_of(account.members.begin(), account.members.end(), is_of_leader)) {
-      LawAccount anew = account;
-      anew.system.reset();
-      refine_by_law(setting, search, anew, {x});
-      if (anew.refined()) settle(setting, search, anew);
-      if (anew.refined() && anew.log_weight > account.log_weight) account = std::move(anew);
-    }
+    if (&account != &leader && account.refined() && account.log_weight > least) rivals.push_back(&account);
+  parallel_for(rivals.size(), [&](std::size_t i) {
+    LawAccount anew = *rivals[i];
+    anew.system.reset();
+    refine_by_law(setting, search, anew, {x});
+    if (anew.refined() && anew.log_weight > rivals[i]->log_weight) *rivals[i] = std::move(anew);
+  });
+  sort_accounts(search.accounts);
 }
 
 /// Entries that promise most at the fit with the leading account in the model, each beside it.
@@ -299,11 +283,7 @@ void look_beside_leader(const LawSetting& setting, LawSearch& search) {
     std::vector<LawAccount> sets = sets_beside(setting, search, leader);
     const VectorXd x = leader.with.map.x.head(static_cast<Index>(setting.plain.map().nuisances().size()));
     parallel_for_told(
-        sets.size(),
-        [&](std::size_t i) {
-          refine_by_law(setting, search, sets[i], {x});
-          if (sets[i].refined()) settle(setting, search, sets[i]);
-        },
+        sets.size(), [&](std::size_t i) { refine_by_law(setting, search, sets[i], {x}); },
         [&](int done, int of) { setting.progress("further causes fitted", done, of); });
     for (LawAccount& set : sets) {
       const auto same = std::find_if(search.accounts.begin(), search.accounts.end(), [&](const LawAccount& a) {
@@ -322,7 +302,7 @@ void look_beside_leader(const LawSetting& setting, LawSearch& search) {
 /// Accounts that are worth a fit of their own: the best and the best of each family.
 std::vector<LawAccount*> leading_accounts(LawSearch& search, const std::set<int>& done) {
   const double best = search.accounts.front().log_weight, over = std::max(0.0, best - search.none.log_evidence);
-  const double near = worth_a_fit(search);
+  const double near = best - std::max(kNear, kNearShare * over);
   const double near_family = best - std::max(kNearFamily, kFamilyShareOf * over);
   const auto candidate_of = [&](const LawAccount& account) {
     return search.entries[static_cast<std::size_t>(account.members.front())].candidate;
@@ -441,8 +421,9 @@ LawSearch search_by_law(const LawSetting& setting, const Fit& base) {
     // What no fit and no scales can be found for is no account.
     std::erase_if(out.accounts, [&](const LawAccount& a) { return done.contains(a.members.front()) && !a.scored; });
     if (out.accounts.empty()) return out;
-    settle_leaders(setting, out);
+    sort_accounts(out.accounts);
   }
+  fit_from_leader(setting, out);
   std::vector<LawAccount> sets;
   add_sets(
       out, law,
@@ -453,11 +434,9 @@ LawSearch search_by_law(const LawSetting& setting, const Fit& base) {
       },
       setting.progress, sets);
   for (LawAccount& account : sets) out.accounts.push_back(std::move(account));
-  settle_leaders(setting, out);
-  look_beside_leader(setting, out);
-  fit_alone_from_sets(setting, out);
   sort_accounts(out.accounts);
-  settle_leaders(setting, out);
+  look_beside_leader(setting, out);
+  fit_from_leader(setting, out);
   return out;
 }
 

