@@ -265,7 +265,7 @@ io::FieldTable DiagnosisConfig::fields() {
       .texts("pairs", pairs, "measured and computed modes that belong together where no shape tells, \"7X-8N\"")
       .texts("left_out", rows.left_out, "types of rows that are not used, such as shape_imag, or modes, \"mode:8\"")
       .number("least_mac", least_mac, "", {0.0, 1.0},
-              "modes of which the model has none this alike are left out, and reported; 0: none is")
+              "least MAC of a measured mode with one of the model; others are left out and reported. 0 keeps all")
       .boolean("names_alike", rows.names_alike,
                "give a mode one name in all conditions, by likeness of shapes (identifications number each condition from 1)")
       .number("highest_frequency", rows.highest_Hz, "Hz", io::non_negative(), "modes above it are left out; 0: none is")
@@ -273,7 +273,7 @@ io::FieldTable DiagnosisConfig::fields() {
              "rows kept from the fit: \"condition\", \"condition/mode\", \"condition/mode/type\" or "
              "\"condition/every_second\", \"none\"; empty: marks, else the rule")
       .integer("most_causes", most_causes, {0, 3},
-               "causes that may act together in one explanation; 0: what is found is told and not put into the model")
+               "largest number of causes in one explanation. 0: causes are told and not put into the model")
       .integer("modes", modes, {4, 200},
                "least number of modes in the reduced basis; it has more where the highest measured frequency asks for them")
       .integer("zones", zones, {2, 10000}, "zones that the elements are gathered in")

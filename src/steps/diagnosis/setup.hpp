@@ -29,7 +29,7 @@ struct DiagnosisConfig {
   std::string damper_places;       ///< file of places where dampers might stand instead
   std::string further_causes;      ///< folder of causes beside it, which may put a family at another set of places
   std::vector<std::string> pairs;  ///< "7X-8N", where no shape was measured
-  double least_mac = 0.0;          ///< modes of which the model has none this alike are left out, and reported
+  double least_mac = 0.0;          ///< MAC of a measured mode with one of the model; others are left out and reported
   diagnosis::RowChoice rows;
   std::vector<std::string> hold_out;  ///< "condition", "condition/mode": in place of marks and rule
   long most_causes = diagnosis::DiagnoseOptions{}.most_causes, modes = 24, zones = 24, nodes = 24;
