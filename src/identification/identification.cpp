@@ -4,15 +4,14 @@
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
 #include <map>
 #include <numbers>
 #include <optional>
-#include <string_view>
 
 #include "core/error.hpp"
 #include "identification/input_output.hpp"
 #include "identification/lying_channels.hpp"
+#include "identification/repeated_rows.hpp"
 #include "identification/sampling.hpp"
 #include "signal/condition.hpp"
 
@@ -132,15 +131,21 @@ JudgedChannels judged_channels(const std::vector<Index>& columns, const Conditio
   return judged;
 }
 
-/// Two records with the same samples would count as two measurements. @param seen  hash of the samples of each file so far
-void refuse_second_copy(const Samples& raw, const records::CampaignRecord& record, std::map<std::size_t, std::string>& seen) {
-  const std::string_view bytes(reinterpret_cast<const char*>(raw.data()),
-                               sizeof(double) * static_cast<std::size_t>(raw.size()));
-  const auto [at, is_new] = seen.emplace(std::hash<std::string_view>()(bytes), record.file.string());
-  if (is_new) return;
-  throw InputError(
-      {record.file.string(), 0, ""}, "holds the same samples as " + at->second + ", which the setup has too",
-      fmt::format("remove the [[record]] on line {} of campaign.toml: counted twice, deviations are too small", record.line));
+/// Samples that the setup has twice would count as two measurements.
+void refuse_repeats(const Samples& raw, const records::CampaignRecord& record, RowsSeen& seen) {
+  const auto twice = seen.add(raw, record.file.string());
+  if (!twice) return;
+  const bool own = twice->file == record.file.string();
+  if (!own && twice->length == raw.rows()) {
+    throw InputError(
+        {record.file.string(), 0, ""}, "holds the same samples as " + twice->file + ", which the setup has too",
+        fmt::format("remove the [[record]] on line {} of campaign.toml: counted twice, deviations are too small", record.line));
+  }
+  throw InputError({record.file.string(), 0, ""},
+                   fmt::format("holds samples twice: the {} from sample {} on are those {}from sample {} on, in all channels",
+                               twice->length, twice->again, own ? "" : "of " + twice->file + " ", twice->first),
+                   fmt::format("remove samples {} to {} of the file: counted twice, deviations are too small", twice->again,
+                               twice->again + twice->length - 1));
 }
 
 /// As condition_records, with all channels that are not excluded.
@@ -178,11 +183,11 @@ Conditioned condition_with(const records::Campaign& campaign, const records::Rec
     }
     return out;
   };
-  std::map<std::size_t, std::string> seen;
+  RowsSeen seen;
   for (const records::CampaignRecord& record : group.records) {
     const auto [raw, notes] = records::read_record(campaign, record);
     const std::string file = record.file.lexically_relative(campaign.folder).generic_string();
-    refuse_second_copy(raw, record, seen);
+    refuse_repeats(raw, record, seen);
     auto quality = channel_quality(raw, record.channels, record.setup, file);
     judge_channels(raw, judged_channels(columns, conditioned, record), quality);
     try {

@@ -5,6 +5,10 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <iterator>
+#include <limits>
+#include <optional>
+#include <utility>
 
 namespace twindeck::identification {
 
@@ -17,6 +21,9 @@ constexpr double kStuck =
 constexpr double kHeld = 0.01;             ///< [-] the same, of a run that resolution does not explain: a spurious mode at 3 %
 constexpr double kAlone = 10.0;            ///< times the tenth longest run: then it is no matter of resolution
 constexpr double kRoundingOfGain = 1e-12;  ///< [-] what the gain's multiplication does to equal values
+constexpr double kCopy = 0.01;             ///< [RMS] that a copy may be off by rounding: two sensors differ by their noise
+constexpr double kFiveDigits = 1e-4;       ///< [-] what five digits resolve of a number
+constexpr double kSameValues = 1e-9;       ///< [-] of factor and offset of values that are the same
 
 /// The longest run of one value.
 struct Run {
@@ -40,14 +47,70 @@ Run longest_run(const Eigen::Ref<const Eigen::VectorXd>& x) {
   return best;
 }
 
-bool is_copy(const Eigen::Ref<const Eigen::VectorXd>& a, double gain_a, const Eigen::Ref<const Eigen::VectorXd>& b,
-             double gain_b) {
-  for (Index t = 0; t < a.size(); ++t) {
-    const double x = a[t] / gain_a, y = b[t] / gain_b;
-    if (std::isnan(x) && std::isnan(y)) continue;
-    if (!(std::abs(x - y) <= kRoundingOfGain * std::abs(x))) return false;
+/// Samples where a channel is lowest and highest.
+std::pair<Index, Index> extremes(const Eigen::Ref<const Eigen::VectorXd>& x) {
+  Index low = 0, high = 0;
+  for (Index t = 1; t < x.size(); ++t) {
+    if (std::isnan(x[low]) || x[t] < x[low]) low = t;
+    if (std::isnan(x[high]) || x[t] > x[high]) high = t;
   }
-  return true;
+  return {low, high};
+}
+
+/// The step that all values of a channel are whole numbers of, as a converter or a number of decimals leaves them; infinite
+/// without one.
+double resolution(const Eigen::Ref<const Eigen::VectorXd>& x) {
+  constexpr double whole = 0.05, none = std::numeric_limits<double>::infinity();  // off a whole number
+  std::vector<double> values;
+  std::copy_if(x.begin(), x.end(), std::back_inserter(values), [](double value) { return std::isfinite(value); });
+  std::sort(values.begin(), values.end());
+  double step = none;
+  for (std::size_t k = 1; k < values.size(); ++k) {
+    if (values[k] > values[k - 1]) step = std::min(step, values[k] - values[k - 1]);
+  }
+  const auto off = [&](double value) { return std::abs(std::remainder((value - values.front()) / step, 1.0)) > whole; };
+  return std::any_of(values.begin(), values.end(), off) ? none : step;
+}
+
+/// A channel b = factor a + offset.
+struct Copy {
+  double factor = 1.0, offset = 0.0;
+};
+
+/// How b follows from a in every sample, within what either resolves; where that is coarse beside the motion, within rounding.
+/// @param rms_b  of b @param at  extremes of a
+std::optional<Copy> copy_of(const Eigen::Ref<const Eigen::VectorXd>& a, const Eigen::Ref<const Eigen::VectorXd>& b,
+                            double rms_b, std::pair<Index, Index> at) {
+  const auto [low, high] = at;
+  const double factor = (b[high] - b[low]) / (a[high] - a[low]), offset = b[low] - factor * a[low];
+  const auto follows = [&, bottom = low](double apart) {
+    for (Index t = 0; t < a.size(); ++t) {
+      if (!(std::abs(b[t] - b[bottom] - factor * (a[t] - a[bottom])) <= apart) && !(std::isnan(a[t]) && std::isnan(b[t])))
+        return false;
+    }
+    return true;
+  };
+  if (!follows(kCopy * rms_b)) return {};
+  const double largest = 2.0 * std::max(std::abs(b[high]), std::abs(b[low])) + std::abs(offset);
+  double within = kRoundingOfGain * largest;
+  for (const double resolved : {resolution(b) + std::abs(factor) * resolution(a), kFiveDigits * largest}) {
+    if (resolved <= kCopy * rms_b) within = std::max(within, resolved);
+  }
+  if (!follows(within)) return {};
+  return Copy{factor, offset};
+}
+
+/// A pure sine, whose second difference is in proportion to it: two channels that hold one are no copies.
+bool is_tone(const Eigen::Ref<const Eigen::VectorXd>& x) {
+  constexpr double other = 1e-3;  // [-] of the power of the second difference
+  double xx = 0.0, xy = 0.0, yy = 0.0;
+  for (Index t = 1; t + 2 < x.size(); ++t) {
+    const double d = x[t + 1] - x[t], y = x[t + 2] - x[t + 1] - 2.0 * d + x[t] - x[t - 1];
+    xx += d * d;
+    xy += d * y;
+    yy += y * y;
+  }
+  return yy - xy * xy / xx <= other * yy;
 }
 
 double median_rms(const JudgedChannels& judged, const std::vector<ChannelQuality>& quality) {
@@ -85,16 +148,32 @@ void judge_motion(const Samples& raw, const JudgedChannels& judged, std::vector<
 void judge_channels(const Samples& raw, const JudgedChannels& judged, std::vector<ChannelQuality>& quality) {
   if (judged.columns.empty() || raw.rows() == 0) return;
   judge_motion(raw, judged, quality);
-  for (std::size_t j = 0; j < judged.columns.size(); ++j) {
-    for (std::size_t i = 0; i < j; ++i) {
+  const std::vector<ChannelQuality> moving = quality;
+  std::ptrdiff_t scaled = 0;
+  for (std::size_t i = 0; i < judged.columns.size(); ++i) {
+    const auto at = extremes(raw.col(judged.columns[i]));
+    for (std::size_t j = i + 1; j < judged.columns.size(); ++j) {
       ChannelQuality *a = &quality[static_cast<std::size_t>(judged.columns[i])],
                      *b = &quality[static_cast<std::size_t>(judged.columns[j])];
       if (!a->left_out.empty() || !b->left_out.empty()) continue;
-      if (!is_copy(raw.col(judged.columns[i]), judged.gain[i], raw.col(judged.columns[j]), judged.gain[j])) continue;
+      const auto copy = copy_of(raw.col(judged.columns[i]), raw.col(judged.columns[j]), b->rms, at);
+      if (!copy) continue;
+      const double factor = copy->factor * judged.gain[i] / judged.gain[j],
+                   offset = std::abs(copy->offset) < kSameValues * b->rms ? 0.0 : copy->offset / judged.gain[j];
+      const bool same = std::abs(factor - 1.0) < kSameValues && offset == 0.0;
+      // A decay in one mode alone is in proportion everywhere, and so is a sine.
+      if (!same && (judged.may_rest || is_tone(raw.col(judged.columns[i])))) continue;
+      scaled += same ? 0 : 1;
       if (judged.reference[j] && !judged.reference[i]) std::swap(a, b);
-      b->left_out = fmt::format("is a copy of {}: both hold the same values", a->channel);
+      b->left_out = same ? fmt::format("is a copy of {}: both hold the same values", a->channel)
+                         : fmt::format("is a copy of {}: in each sample {} = {:.6g} {} {} {:.6g}", a->channel,
+                                       quality[static_cast<std::size_t>(judged.columns[j])].channel, factor,
+                                       quality[static_cast<std::size_t>(judged.columns[i])].channel, offset < 0.0 ? "-" : "+",
+                                       std::abs(offset));
     }
   }
+  // All in proportion: a motion in one shape without noise, of which no channel is another's copy.
+  if (scaled > 1 && scaled + 1 == std::ssize(judged.columns)) quality = moving;
 }
 
 }  // namespace twindeck::identification
