@@ -9,17 +9,12 @@
 #include "core/error.hpp"
 #include "core/units.hpp"
 #include "io/atomic.hpp"
+#include "io/letters.hpp"
 #include "io/spreadsheet.hpp"
 #include "io/text_lines.hpp"
 
 namespace twindeck::io {
 namespace {
-
-std::string trimmed(const std::string& text) {
-  const std::size_t first = text.find_first_not_of(" \t");
-  if (first == std::string::npos) return "";
-  return text.substr(first, text.find_last_not_of(" \t") - first + 1);
-}
 
 /// Cuts the text of a file into records by RFC 4180: quoted cells may hold commas, line ends and doubled quotes. Blanks around
 /// an unquoted cell are dropped (hand-written tables have them), blank lines are skipped, CRLF is tolerated.
@@ -48,7 +43,7 @@ class RecordReader {
         cells.push_back(quoted_cell());
       } else {
         const std::size_t end = std::min(text_.find_first_of(",\r\n", at_), text_.size());
-        cells.push_back(trimmed(text_.substr(at_, end - at_)));
+        cells.emplace_back(without_blanks(std::string_view(text_).substr(at_, end - at_), " \t"));
         at_ = end;
       }
       if (at_ >= text_.size()) return any_quoted;
@@ -158,7 +153,7 @@ std::string CsvTable::text(std::size_t row, const std::string& column) const {
 }
 
 std::optional<double> CsvTable::number_if(std::size_t row, const std::string& column) const {
-  const std::string cell = trimmed(text(row, column));
+  const std::string cell(without_blanks(text(row, column), " \t"));
   if (cell.empty()) return std::nullopt;
   const char* begin = cell.data() + (cell.size() > 1 && cell[0] == '+' && cell[1] != '-' ? 1 : 0);  // from_chars takes no '+'
   const char* end = cell.data() + cell.size();

@@ -15,6 +15,7 @@
 
 #include "core/error.hpp"
 #include "io/atomic.hpp"
+#include "io/letters.hpp"
 #include "io/regular_file.hpp"
 
 namespace twindeck::io {
@@ -50,11 +51,6 @@ std::string header_text(std::ifstream& in, const fs::path& file) {
   if (!in.read(text.data(), static_cast<std::streamsize>(length)))
     refuse(file, "ends within its header", "write the file again");
   return text;
-}
-
-std::string_view without_blanks(std::string_view text) {
-  const std::size_t first = text.find_first_not_of(" \t\r\n"), last = text.find_last_not_of(" \t\r\n");
-  return first == std::string_view::npos ? std::string_view{} : text.substr(first, last - first + 1);
 }
 
 /// What follows `'key':` in the header, a Python dictionary; empty if the key is not there.

@@ -156,11 +156,7 @@ class Parser {
 
 }  // namespace
 
-std::string trimmed(const std::string& text) {
-  const auto first = text.find_first_not_of(" \t\r");
-  if (first == std::string::npos) return "";
-  return text.substr(first, text.find_last_not_of(" \t\r") - first + 1);
-}
+std::string trimmed(const std::string& text) { return std::string(io::without_blanks(text, " \t\r")); }
 
 bool is_whole_number(const std::string& field) {
   const std::size_t sign = !field.empty() && (field[0] == '-' || field[0] == '+') ? 1 : 0;

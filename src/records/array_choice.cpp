@@ -23,17 +23,9 @@ std::string bare(const std::string& name) {
   return io::lower_case(name.substr(last == std::string::npos ? 0 : last + 1));
 }
 
-/// "time_ms", "dt_us": the name without the unit at its end, and that unit [s]; 0 where it has none.
-std::pair<std::string, double> without_unit(const std::string& name) {
-  const std::string text = bare(name);
-  const std::size_t last = text.find_last_of("_ ([");
-  const double unit = last == std::string::npos ? 0.0 : time_unit_s(text.substr(last + 1, text.find_last_not_of(")]") - last));
-  return {unit > 0.0 ? text.substr(0, text.find_last_not_of("_ ([", last) + 1) : text, unit};
-}
-
 bool is_time(const std::string& name) {
   return is_one_of("|t|time|times|tempo|tiempo|zeit|time_vector|timevector|tvec|timestamp|timestamps|time_stamp|epoch|datenum|",
-                   without_unit(name).first);
+                   without_time_unit(bare(name)).first);
 }
 
 bool is_rate(const std::string& name) {  // "samplingrate", "sample_rate_hz"; "samples" tells how many there are
@@ -107,20 +99,32 @@ void list_channels(const std::vector<NamedArray>& arrays, const ArrayChoice& cho
 }
 
 void name_channels(const std::vector<std::string>& texts, Index columns, RecordInfo& info) {
-  const bool with_time = std::ssize(texts) == columns && columns == std::ssize(info.channels) + 1;
+  const bool with_time = std::ssize(texts) == columns;
   if (std::ssize(texts) != std::ssize(info.channels) && !with_time) return;
-  for (std::size_t c = 0; c < info.channels.size(); ++c) info.channels[c].name = texts[c + (with_time ? 1 : 0)];
+  for (std::size_t c = 0; c < info.channels.size(); ++c)
+    info.channels[c].name = texts[with_time ? static_cast<std::size_t>(info.channels[c].position) - 1 : c];
   info.names_channels = info.has_header = true;
 }
 
 double rate_of(const std::string& name, double value) {
   if (!(value > 0.0) || !std::isfinite(value)) return 0.0;
   if (bare(name) == "t_s") return 1.0 / value;
-  const auto [text, unit] = without_unit(name);
+  const auto [text, unit] = without_time_unit(bare(name));
   if (is_step(text)) return 1.0 / (value * (unit > 0.0 ? unit : StampedRows::likely_unit_s(value)));
   return is_rate(bare(name)) ? value : 0.0;
 }
 
-double time_unit_of(const std::string& name) { return without_unit(name).second; }
+void read_rates(const std::vector<NamedArray>& arrays, const ArrayChoice& choice,
+                const std::function<Eigen::VectorXd(std::size_t)>& values_of, RecordInfo& info) {
+  if (choice.time >= 0) {
+    const auto at = static_cast<std::size_t>(choice.time);
+    StampedRows stamps;
+    const Eigen::VectorXd times = values_of(at);
+    for (const double time : times) stamps.add(time);
+    take_clock(stamps, without_time_unit(arrays[at].name).second, "'" + arrays[at].name + "'", info);
+  }
+  for (const std::size_t at : choice.scalars)
+    take_stated_rate(rate_of(arrays[at].name, values_of(at)[0]), "'" + arrays[at].name + "'", info);
+}
 
 }  // namespace twindeck::records

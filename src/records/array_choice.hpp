@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -35,7 +36,7 @@ struct ArrayChoice {
 /// The channels of the chosen arrays, and notes on further matrices.
 void list_channels(const std::vector<NamedArray>& arrays, const ArrayChoice& choice, RecordInfo& info);
 
-/// Names the channels by the texts of a cell array, if there is one for each; one for the time's column may stand before them.
+/// Names the channels by the texts of a cell array, if there is one for each; columns of time may have theirs.
 /// @param columns  of the matrix
 void name_channels(const std::vector<std::string>& texts, Eigen::Index columns, RecordInfo& info);
 
@@ -43,6 +44,9 @@ void name_channels(const std::vector<std::string>& texts, Eigen::Index columns, 
 /// name has no unit, the unit that gives 1 to 100,000 Hz counts.
 [[nodiscard]] double rate_of(const std::string& name, double value);
 
-/// Unit [s] at the end of the name of a vector of times ("time_ms"); 0 without one.
-[[nodiscard]] double time_unit_of(const std::string& name);
+/// Enters what the vector of times says, in the unit at the end of its name ("time_ms") if it has one, and what scalars say.
+/// @param values_of  an array's values, NaN where they cannot be had
+void read_rates(const std::vector<NamedArray>& arrays, const ArrayChoice& choice,
+                const std::function<Eigen::VectorXd(std::size_t)>& values_of, RecordInfo& info);
+
 }  // namespace twindeck::records

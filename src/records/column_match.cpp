@@ -7,6 +7,7 @@
 #include <iterator>
 
 #include "core/error.hpp"
+#include "io/letters.hpp"
 #include "records/text_cells.hpp"
 
 namespace twindeck::records {
@@ -25,7 +26,7 @@ std::vector<std::string> names_of(const RecordInfo& info) {
 
 /// Letters and digits in lower case: "Acc 1", "ACC_1" and "acc1" are one name.
 std::string folded(const std::string& name) {
-  std::string text = lower(name);
+  std::string text = io::lower_case(name);
   std::erase_if(text, [](char c) { return c == ' ' || c == '_' || c == '-' || c == '.'; });
   return text;
 }

@@ -4,6 +4,7 @@
 #include <regex>
 #include <string>
 
+#include "io/letters.hpp"
 #include "records/text_cells.hpp"
 
 namespace twindeck::records {
@@ -43,7 +44,7 @@ const Stated& stated_interval() {
 
 std::optional<double> rate_in_header_line(std::string_view text) {
   constexpr std::ptrdiff_t longest = 300;  // letters of a statement; a regular expression takes memory for each
-  const std::string line = lower(text);
+  const std::string line = io::lower_case(text);
   for (const bool interval : {true, false}) {
     const Stated& stated = interval ? stated_interval() : stated_rate();
     for (auto at = line.begin(); at != line.end(); ++at) {
@@ -72,7 +73,7 @@ bool is_time_name(std::string_view text) {
       "timestamp"  // "sensorTimestamp_since1970"
       "|(?:^|[^a-z])(?:time|zeit|zeitstempel|uhrzeit|tempo|tiempo|datum|date|datetime|data/ora|elapsed|sec|seconds|epoch|utc"
       "|millis|t)(?:m?s)?(?![a-z])");  // "time_s", "tms"
-  return std::regex_search(lower(text), time);
+  return std::regex_search(io::lower_case(text), time);
 }
 
 }  // namespace twindeck::records

@@ -8,16 +8,18 @@
 #include <utility>
 
 #include "core/error.hpp"
+#include "io/letters.hpp"
 #include "io/npy.hpp"
 #include "io/regular_file.hpp"
 #include "io/spreadsheet.hpp"
-#include "records/first_column.hpp"
+#include "records/array_choice.hpp"
 #include "records/mat_file.hpp"
 #include "records/scan_hdf5.hpp"
 #include "records/scan_mat.hpp"
 #include "records/scan_text.hpp"
 #include "records/scan_universal.hpp"
 #include "records/take_clock.hpp"
+#include "records/time_columns.hpp"
 
 namespace twindeck::records {
 namespace fs = std::filesystem;
@@ -48,12 +50,9 @@ bool is_universal(const std::string& text) {
   std::size_t at = 0;
   while (at < text.size()) {
     const std::size_t end = std::min(text.find('\n', at), text.size());
-    std::string line = text.substr(at, end - at);
+    const std::string_view line = io::without_blanks(std::string_view(text).substr(at, end - at));
     at = end + 1;
-    const std::size_t first = line.find_first_not_of(" \t\r");
-    if (first == std::string::npos) continue;
-    const std::size_t last = line.find_last_not_of(" \t\r");
-    return line.substr(first, last - first + 1) == "-1";
+    if (!line.empty()) return line == "-1";
   }
   return false;
 }
@@ -64,15 +63,16 @@ void refuse_containers(const fs::path& file, std::string_view text) {
     std::string_view begin;
     const char *what, *mend;
   };
-  static constexpr const char *as_csv = "export it as CSV or MAT file", *unpack = "unpack it";
+  static constexpr const char *as_csv = "export it as CSV or MAT file", *unpack = "unpack it",
+                              *python = "save the array by numpy.save, or the table by to_csv";
   static constexpr std::array<Container, 13> known = {
       {{"PK\3\4", "an archive (zip, NPZ)",
         "unpack it; of an NPZ, save the samples as one array (samples x channels) by numpy.save"},
        {"PAR1", "a Parquet file", "write it as a table: pandas.read_parquet(name).to_csv('record.csv', index=False)"},
        {"ARROW1", "a Feather file", "write it as a table: pandas.read_feather(name).to_csv('record.csv', index=False)"},
-       {"\x80\3", "a pickle of Python", "save the array by numpy.save, or the table by to_csv"},
-       {"\x80\4", "a pickle of Python", "save the array by numpy.save, or the table by to_csv"},
-       {"\x80\5", "a pickle of Python", "save the array by numpy.save, or the table by to_csv"},
+       {"\x80\3", "a pickle of Python", python},
+       {"\x80\4", "a pickle of Python", python},
+       {"\x80\5", "a pickle of Python", python},
        {"\x1F\x8B", "compressed by gzip", unpack},
        {"7z\xBC\xAF", "compressed by 7-Zip", unpack},
        {"\xD0\xCF\x11\xE0", "a workbook of old Excel (.xls)", "save it as .xlsx or CSV"},
@@ -89,25 +89,20 @@ void refuse_containers(const fs::path& file, std::string_view text) {
 }  // namespace
 
 RecordInfo scan_npy(const fs::path& file, const Visitor& visit) {
-  RecordInfo info;
-  info.format = "NPY";
-  info.has_header = false;
   const auto [rows, columns] = io::shape_of_npy(file);
   const bool along_rows = columns > rows;
-  FirstColumn first_column(visit, std::min(rows, columns));
+  TimeColumns time_columns(visit, std::min(rows, columns));
   io::visit_npy(file, [&](Index row, Index column, const Eigen::MatrixXd& block) {
-    if (along_rows) return first_column(column, row, block.transpose());
-    first_column(row, column, block);
+    if (along_rows) return time_columns(column, row, block.transpose());
+    time_columns(row, column, block);
   });
-  for (Index c = 0; c < std::min(rows, columns); ++c) {
-    ChannelInfo channel;
-    channel.position = c + 1;
-    channel.name = "column " + std::to_string(c + 1);
-    channel.samples = std::max(rows, columns);
-    info.channels.push_back(channel);
-  }
+  RecordInfo info;
+  info.format = "NPY";
+  ArrayChoice choice;
+  choice.data = {0};
+  list_channels({{"column 1", rows, columns}}, choice, info);
   if (along_rows) info.notes.emplace_back("channels run along the rows");
-  first_column.finish(info);
+  time_columns.finish(info);
   return info;
 }
 

@@ -43,7 +43,7 @@ struct Search {
   std::vector<Index> missing;  ///< m of each stamp
   [[nodiscard]] std::size_t size() const { return row.size(); }
   /// The first stamp that counts: the first of shared ones may have begun before the record.
-  [[nodiscard]] std::size_t begin() const { return shared && size() > 3 ? 1 : 0; }
+  [[nodiscard]] std::size_t begin() const { return shared && size() > 2 ? 1 : 0; }
   [[nodiscard]] double place(std::size_t k) const { return row[k] + static_cast<double>(missing[k]); }
 };
 
@@ -327,7 +327,7 @@ void StampedRows::add(double stamp) {
         break;
       }
     }
-    counts_ = counts_ && stamp - last_ == 1.0;
+    counts_ = counts_ && std::abs(stamp - last_ - 1.0) <= std::min(1e-3, 2e-7 * std::abs(stamp));  // of single precision
     if (stamp < last_) ++falls_;
     if (stamp == last_) return;
   }
@@ -340,16 +340,21 @@ bool StampedRows::mostly_rises() const {
   return row_ > without_ && without_ <= row_ / 2 && one_in * falls_ <= row_;
 }
 
-bool StampedRows::runs_like_time() const {
+bool StampedRows::runs_like_time(bool evenly) const {
   constexpr double even = 0.05;  // [-] scatter about the line beside its length
   if (falls_ > 0 || without_ > 0 || counts_ || stamps_.size() < 3) return false;
   const RecordClock found = clock(1.0);
   if (found.rate_Hz <= 0.0 || found.changes_rate >= 0) return false;
-  return found.scatter_s <= even * (stamps_.back().time - stamps_.front().time);
+  const double length = stamps_.back().time - stamps_.front().time, rows = static_cast<double>(row_);
+  return found.scatter_s <= (evenly ? 1.0 / rows : even) * length;
 }
 
-double StampedRows::likely_unit_s(double step) {
-  constexpr double slowest = 1.0, fastest = 1e5;  // [Hz] of records of vibration
+double StampedRows::likely_unit_s(double step, double first) {
+  constexpr double slowest = 1.0, fastest = 1e5;         // [Hz] of records of vibration
+  constexpr double tick = 1e-7;                          // [s]
+  for (const double year_1990 : {6.278e17, 1.228e17}) {  // [ticks] since 0001 and 1601; a century more is the same digits
+    if (first > year_1990 && first < year_1990 + 3.2e16) return tick;
+  }
   for (const double unit : {1.0, 1e-3, 1e-6, 1e-9, 86400.0}) {
     const double rate = 1.0 / (step * unit);
     if (rate >= slowest * (1.0 - 1e-3) && rate <= fastest) return unit;
@@ -373,6 +378,7 @@ RecordClock StampedRows::clock(double unit_s) const {
     s.row.push_back(static_cast<double>(stamp.row));
     s.time.push_back(stamp.time - stamps_.front().time);
   }
+  if (s.shared && n == 2) return found;  // nobody knows for how long the first one was there before the record
   s.step = first_step(s);
   if (s.step <= 0.0) {
     for (std::size_t k = 1; k < n && found.steps_back < 0; ++k)
@@ -393,7 +399,7 @@ RecordClock StampedRows::clock(double unit_s) const {
                                   [&](const ClockGap& gap) { return gap.samples < 0 && gap.row == stamps_[k].row; });
     if (!told && s.time[k] < s.time[k - 1] - tolerance) found.steps_back = stamps_[k].row;
   }
-  const double unit = unit_s > 0.0 ? unit_s : likely_unit_s(line.slope);
+  const double unit = unit_s > 0.0 ? unit_s : likely_unit_s(line.slope, stamps_.front().time);
   const double rate = 1.0 / (line.slope * unit);
   found.deviation_Hz = rate * line.deviation / line.slope;
   found.rate_Hz = round_rate(rate, found.deviation_Hz);

@@ -47,10 +47,12 @@ class StampedRows {
   void add(double stamp);
   /// @param unit_s  [s] of the stamps; 0: not known, then the first of s, ms, us, ns, days that gives 1 to 100,000 Hz
   [[nodiscard]] RecordClock clock(double unit_s) const;
-  /// That unit, where none is known. @param step  between samples, as stamped
-  [[nodiscard]] static double likely_unit_s(double step);
+  /// That unit, where none is known. @param step  between samples, as stamped @param first  stamp: one of the last decades'
+  /// 100 ns since the year 1 or 1601 (ticks of .NET, times of Windows) tells its unit
+  [[nodiscard]] static double likely_unit_s(double step, double first = 0.0);
   /// What an unnamed column must do to be time: it never falls, lies near a line and does not count samples (1, 2, 3 …).
-  [[nodiscard]] bool runs_like_time() const;
+  /// @param evenly  it scatters about the line by no more than a sample, as a slow motion that rises does not
+  [[nodiscard]] bool runs_like_time(bool evenly = false) const;
   /// The stamps never fell, but for midnight and a few jumps.
   [[nodiscard]] bool mostly_rises() const;
   [[nodiscard]] Eigen::Index rows() const { return row_; }

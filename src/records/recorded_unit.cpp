@@ -2,6 +2,7 @@
 
 #include <array>
 
+#include "io/letters.hpp"
 #include "records/text_cells.hpp"
 
 namespace twindeck::records {
@@ -27,7 +28,7 @@ std::string plain(const std::string& unit) {
     for (std::size_t at = text.find(from); at != std::string::npos; at = text.find(from, at + to.size()))
       text.replace(at, from.size(), to);
   }
-  return lower(text);
+  return io::lower_case(text);
 }
 
 constexpr double kG = 9.80665, kInch = 0.0254, kFoot = 0.3048,

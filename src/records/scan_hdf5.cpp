@@ -8,15 +8,16 @@
 
 #include <algorithm>
 #include <cerrno>
+#include <cmath>
 #include <csignal>
 #include <fstream>
 #include <functional>
 
 #include "core/error.hpp"
 #include "records/array_choice.hpp"
-#include "records/first_column.hpp"
 #include "records/take_clock.hpp"
 #include "records/text_cells.hpp"
+#include "records/time_columns.hpp"
 
 namespace twindeck::records {
 namespace fs = std::filesystem;
@@ -239,22 +240,6 @@ std::vector<std::string> texts_of(hid_t file, const std::string& name) {
   return texts;
 }
 
-void read_rate(const std::function<Eigen::MatrixXd(std::size_t)>& whole, const ArrayChoice& choice, const Found& found,
-               RecordInfo& info) {
-  if (choice.time >= 0) {
-    const auto at = static_cast<std::size_t>(choice.time);
-    StampedRows stamps;
-    const Eigen::MatrixXd times = whole(at);
-    for (const double time : times.reshaped()) stamps.add(time);
-    take_clock(stamps, time_unit_of(found.arrays[at].name), "'" + found.arrays[at].name + "'", info);
-  }
-  for (const auto& [name, value] : found.attributes) take_stated_rate(rate_of(name, value), "'" + name + "'", info);
-  for (const std::size_t at : choice.scalars) {
-    const std::string& name = found.arrays[at].name;
-    if (found.problems[at].empty()) take_stated_rate(rate_of(name, whole(at)(0, 0)), "'" + name + "'", info);
-  }
-}
-
 /// Name as a person of that program calls it: "run.acc" of the structure `run` in MATLAB.
 std::string called(std::string name, bool matlab) {
   if (matlab) std::replace(name.begin(), name.end(), '/', '.');
@@ -325,10 +310,9 @@ RecordInfo scan_hdf5(const fs::path& file, const Visitor& visit) {
                      "write the file again, with all values in it");
   }
   RecordInfo info = info_of(found, choice);
-  const auto open = [&](std::size_t at) { return H5Dopen(handle.get(), found.arrays[at].name.c_str(), H5P_DEFAULT); };
   const Index samples = found.arrays[choice.data.front()].longer();
   const bool matrix = choice.data.size() == 1;
-  FirstColumn first_column(visit, matrix ? std::ssize(info.channels) : 1);
+  TimeColumns time_columns(visit, std::ssize(info.channels));
   const Index chunk = std::max<Index>(1, 131072 / (matrix ? std::ssize(info.channels) : 1));
   for (std::size_t k = 0; k < choice.data.size(); ++k) {
     const NamedArray& array = found.arrays[choice.data[k]];
@@ -340,21 +324,24 @@ RecordInfo scan_hdf5(const fs::path& file, const Visitor& visit) {
     for (Index at = 0; at < samples; at += chunk) {
       const Index n = std::min(chunk, samples - at);
       if (along_rows) {
-        first_column(at, first_channel, part(dataset.get(), 0, at, array.rows, n, file.string()).transpose());
+        time_columns(at, first_channel, part(dataset.get(), 0, at, array.rows, n, file.string()).transpose());
       } else {
-        first_column(at, first_channel, part(dataset.get(), at, 0, n, array.columns, file.string()));
+        time_columns(at, first_channel, part(dataset.get(), at, 0, n, array.columns, file.string()));
       }
     }
   }
   const Index columns = std::ssize(info.channels);
-  first_column.finish(info);
+  time_columns.finish(info);
   for (const std::string& cell : found.cells) name_channels(texts_of(handle.get(), cell), columns, info);
-  const auto whole = [&](std::size_t at) {
-    const Handle dataset(open(at), H5Dclose);
-    if (!found.problems[at].empty()) throw InputError({file.string(), 0, found.arrays[at].name}, found.problems[at]);
-    return part(dataset.get(), 0, 0, found.arrays[at].rows, found.arrays[at].columns, file.string());
+  const auto whole = [&](std::size_t at) -> Eigen::VectorXd {
+    const NamedArray& array = found.arrays[at];
+    if (!found.problems[at].empty() && array.longer() == 1) return Eigen::VectorXd::Constant(1, std::nan(""));
+    if (!found.problems[at].empty()) throw InputError({file.string(), 0, array.name}, found.problems[at]);
+    const Handle dataset(H5Dopen(handle.get(), array.name.c_str(), H5P_DEFAULT), H5Dclose);
+    return part(dataset.get(), 0, 0, array.rows, array.columns, file.string()).reshaped();
   };
-  read_rate(whole, choice, found, info);
+  read_rates(found.arrays, choice, whole, info);
+  for (const auto& [name, value] : found.attributes) take_stated_rate(rate_of(name, value), "'" + name + "'", info);
   return info;
 }
 

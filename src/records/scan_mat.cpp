@@ -7,9 +7,8 @@
 
 #include "core/error.hpp"
 #include "records/array_choice.hpp"
-#include "records/first_column.hpp"
 #include "records/mat_file.hpp"
-#include "records/take_clock.hpp"
+#include "records/time_columns.hpp"
 
 namespace twindeck::records {
 namespace fs = std::filesystem;
@@ -40,21 +39,6 @@ void visit_matrix(const MatFile& mat, const MatArray& array, bool transposed, co
   });
 }
 
-/// The rate by the vector of times, or by a scalar whose name says so.
-void read_rate(const MatFile& mat, const ArrayChoice& choice, RecordInfo& info) {
-  if (choice.time >= 0) {
-    const MatArray& times = mat.arrays[static_cast<std::size_t>(choice.time)];
-    StampedRows stamps;
-    const Eigen::VectorXd values = values_of(mat, times);
-    for (const double time : values) stamps.add(time);
-    take_clock(stamps, time_unit_of(times.shape.name), "'" + times.shape.name + "'", info);
-  }
-  for (const std::size_t at : choice.scalars) {
-    const std::string& name = mat.arrays[at].shape.name;
-    take_stated_rate(rate_of(name, values_of(mat, mat.arrays[at])[0]), "'" + name + "'", info);
-  }
-}
-
 }  // namespace
 
 RecordInfo scan_mat(const fs::path& file, const Visitor& visit) {
@@ -73,18 +57,16 @@ RecordInfo scan_mat(const fs::path& file, const Visitor& visit) {
   list_channels(shapes, choice, info);
   if (choice.transposed) info.notes.push_back("channels run along the rows");
 
-  FirstColumn first_column(visit, channels);
-  if (matrix) {
-    visit_matrix(mat, mat.arrays[choice.data.front()], choice.transposed, std::ref(first_column));
-    first_column.finish(info);
-  } else {
-    for (std::size_t c = 0; c < choice.data.size(); ++c) {
-      visit_values(mat, mat.arrays[choice.data[c]], kValues,
-                   [&](Index sample, const Eigen::VectorXd& values) { visit(sample, static_cast<Index>(c), values); });
-    }
+  TimeColumns time_columns(visit, channels);
+  if (matrix) visit_matrix(mat, mat.arrays[choice.data.front()], choice.transposed, std::ref(time_columns));
+  for (std::size_t c = 0; c < choice.data.size() && !matrix; ++c) {
+    visit_values(mat, mat.arrays[choice.data[c]], kValues,
+                 [&](Index sample, const Eigen::VectorXd& values) { time_columns(sample, static_cast<Index>(c), values); });
   }
+  time_columns.finish(info);
   for (const auto& texts : mat.texts) name_channels(texts, channels, info);
-  read_rate(mat, choice, info);
+  read_rates(
+      shapes, choice, [&](std::size_t at) { return values_of(mat, mat.arrays[at]); }, info);
   return info;
 }
 

@@ -59,9 +59,14 @@ class RowTime {
   explicit RowTime(const TextLayout& layout) : layout_(layout) {}
   std::optional<double> time(const std::vector<std::string_view>& cells) {
     const auto at = static_cast<std::size_t>(layout_.time_column);
-    if (!layout_.stamps) return number_in(cells[at], layout_.decimal_comma);
-    if (!layout_.date_and_time || at + 1 >= cells.size()) return stamps_.next(cells[at]);
-    return stamps_.next(std::string(cells[at]) + " " + std::string(cells[at + 1]));
+    if (!layout_.stamps && !layout_.time_parts) return number_in(cells[at], layout_.decimal_comma);
+    std::optional<double> time = layout_.stamps ? std::nullopt : std::optional(0.0);
+    const int date = layout_.date_column;
+    if (layout_.stamps)
+      time = stamps_.next(date < 0 ? cells[at]
+                                   : std::string(cells[static_cast<std::size_t>(date)]) + " " + std::string(cells[at]));
+    const auto parts = layout_.time_parts ? seconds_of_parts(cells, *layout_.time_parts, layout_.decimal_comma) : 0.0;
+    return time && parts ? std::optional(*time + *parts) : std::nullopt;
   }
   [[nodiscard]] long exchanged() const { return stamps_.exchanged(); }
 
@@ -74,9 +79,8 @@ class RowTime {
 std::vector<std::size_t> channel_columns(const TextLayout& layout) {
   std::vector<std::size_t> columns;
   for (std::size_t c = 0; c < layout.columns; ++c) {
-    const int from = layout.time_column, to = from + (layout.date_and_time ? 1 : 0), at = static_cast<int>(c);
     const bool other = std::find(layout.other_times.begin(), layout.other_times.end(), c) != layout.other_times.end();
-    if ((from < 0 || at < from || at > to) && !other) columns.push_back(c);
+    if (static_cast<int>(c) != layout.time_column && !other) columns.push_back(c);
   }
   return columns;
 }
@@ -215,7 +219,7 @@ RecordInfo scan_text(const fs::path& file, const Visitor& visit, const ReadOptio
   parts.flush();
   for (ChannelInfo& channel : info.channels) channel.samples = parts.rows();
   if (layout.time_column >= 0)
-    take_clock(stamps, layout.stamps ? 1.0 : layout.time_unit_s, "time column" + time_name(layout), info);
+    take_clock(stamps, layout.stamps || layout.time_parts ? 1.0 : layout.time_unit_s, "time column" + time_name(layout), info);
   if (layout.header_rate_Hz)
     take_stated_rate(*layout.header_rate_Hz, fmt::format("header: '{}'", layout.header_rate_text), info);
   const auto note = [&](long count, const std::string& one, const std::string& several) {

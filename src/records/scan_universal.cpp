@@ -13,6 +13,7 @@
 #include <utility>
 
 #include "core/error.hpp"
+#include "io/letters.hpp"
 #include "records/take_clock.hpp"
 #include "records/text_cells.hpp"
 #include "records/universal_lines.hpp"
@@ -57,7 +58,7 @@ struct Series {
   Index values = 0;
   bool even = true, binary = false, swapped = false;
   double step = 0.0;
-  double unit_s = 1.0;  ///< of the abscissa
+  double unit_s = 0.0;  ///< of the abscissa, 0 where it has none that is known
   StampedRows stamps;   ///< where it is uneven
   std::size_t bytes = 0;
   ChannelInfo channel;
@@ -116,14 +117,17 @@ Series read_series_header(UniversalLines& in, const std::string& set_line, const
             "write the set again");
   const std::string axis = need_inside(in, what);
   series.abscissa = static_cast<int>(integer_or(field(axis, 0, 10), 17));
-  if (const double unit = time_unit_s(field(axis, 47, 20)); unit > 0.0) series.unit_s = unit;
+  series.unit_s = time_unit_s(field(axis, 47, 20));
   const std::string ordinate = need_inside(in, what);
   series.channel.unit = field(ordinate, 47, 20);
   if (series.channel.unit == "NONE") series.channel.unit.clear();
   need_inside(in, what);
   need_inside(in, what);
   series.channel.samples = series.values;
-  if (series.even && series.step > 0.0) series.channel.rate_Hz = 1.0 / (series.step * series.unit_s);
+  if (series.even && series.step > 0.0) {
+    const double unit_s = series.unit_s > 0.0 ? series.unit_s : StampedRows::likely_unit_s(series.step);
+    series.channel.rate_Hz = 1.0 / (series.step * unit_s);
+  }
   return series;
 }
 
@@ -164,7 +168,7 @@ std::vector<double> series_numbers(UniversalLines& in, const std::string& line) 
   if (line.find_first_not_of("0123456789+-.eEdD \t") == std::string::npos) return numbers_in(line);
   std::vector<double> values;
   for (const std::string_view cell : cells_of(line, ' ')) {
-    const std::string word = lower(cell.substr(cell.starts_with('-') || cell.starts_with('+') ? 1 : 0));
+    const std::string word = io::lower_case(cell.substr(cell.starts_with('-') || cell.starts_with('+') ? 1 : 0));
     if (word == "nan" || word == "inf" || word == "infinity" || word.find_first_not_of('*') == std::string::npos) {
       values.push_back(std::numeric_limits<double>::quiet_NaN());
       continue;

@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "core/error.hpp"
+#include "io/letters.hpp"
 #include "records/text_cells.hpp"
 
 namespace twindeck::records {
@@ -63,7 +64,7 @@ void note_faults(RecordInfo& info) {
 }  // namespace
 
 double time_unit_s(const std::string& unit) {
-  const std::string text = lower(trimmed(unit));
+  const std::string text = io::lower_case(trimmed(unit));
   if (is_one_of("|s|sec|secs|second|seconds|", text)) return 1.0;
   if (is_one_of("|ms|msec|millis|millisecond|milliseconds|", text)) return 1e-3;
   if (is_one_of("|us|\xC2\xB5s|\xCE\xBCs|usec|micros|microseconds|", text)) return 1e-6;
@@ -71,6 +72,12 @@ double time_unit_s(const std::string& unit) {
   if (is_one_of("|min|minutes|", text)) return 60.0;
   if (is_one_of("|h|hours|", text)) return 3600.0;
   return is_one_of("|d|day|days|", text) ? 86400.0 : 0.0;
+}
+
+std::pair<std::string, double> without_time_unit(const std::string& name) {
+  const std::size_t last = name.find_last_of("_ ([");
+  const double unit = last == std::string::npos ? 0.0 : time_unit_s(name.substr(last + 1, name.find_last_not_of(")]") - last));
+  return {unit > 0.0 ? name.substr(0, name.find_last_not_of("_ ([", last) + 1) : name, unit};
 }
 
 std::string place_of(const RecordInfo& info, Index row) {

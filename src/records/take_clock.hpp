@@ -2,6 +2,7 @@
 
 #include <filesystem>
 #include <string>
+#include <utility>
 
 #include "core/samples.hpp"
 #include "records/record.hpp"
@@ -20,6 +21,9 @@ void take_stated_rate(double rate_Hz, const std::string& source, RecordInfo& inf
 
 /// [s] of a unit of time by its name ("ms", "µs", "sec" …); 0 for any other.
 [[nodiscard]] double time_unit_s(const std::string& unit);
+
+/// A name without the unit of time at its end ("time_ms", "dt (us)"), and that unit [s]; 0 where it has none.
+[[nodiscard]] std::pair<std::string, double> without_time_unit(const std::string& name);
 
 /// "sample 1000 (line 1002)" of a row of the file: its place among the samples, gaps counted.
 [[nodiscard]] std::string place_of(const RecordInfo& info, Eigen::Index row);

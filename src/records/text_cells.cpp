@@ -7,22 +7,11 @@
 #include <limits>
 
 #include "core/printable.hpp"
+#include "io/letters.hpp"
 
 namespace twindeck::records {
 
-std::string_view trimmed(std::string_view text) {
-  const char* blanks = " \t\r\n\"'";
-  const std::size_t first = text.find_first_not_of(blanks);
-  if (first == std::string_view::npos) return {};
-  return text.substr(first, text.find_last_not_of(blanks) - first + 1);
-}
-
-std::string lower(std::string_view text) {
-  std::string result(text);
-  std::transform(result.begin(), result.end(), result.begin(),
-                 [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; });
-  return result;
-}
+std::string_view trimmed(std::string_view text) { return io::without_blanks(text, " \t\r\n\"'"); }
 
 bool is_one_of(std::string_view words, const std::string& word) {
   return !word.empty() && word.find('|') == std::string::npos && words.find('|' + word + '|') != std::string_view::npos;
@@ -105,18 +94,22 @@ std::optional<double> number_in(std::string_view cell, bool decimal_comma) {
   const char *begin = buffer.data() + (buffer[0] == '+' ? 1 : 0), *stop = buffer.data() + n;
   double value = 0.0;
   const auto [end, error] = std::from_chars(begin, stop, value);
-  if (error == std::errc() && end == stop) return std::isfinite(value) ? value : nan;
+  constexpr double least = 9e36, most = 3.5e38;  // 9.9E37, 9.91E37 (SCPI), 1e38, the largest single number: nothing measured
+  const bool none = std::abs(value) > least && std::abs(value) < most;
+  if (error == std::errc() && end == stop) return std::isfinite(value) && !none ? value : nan;
   if (const auto joined = without_groups(cell, decimal_comma ? ',' : '.')) return number_in(*joined, decimal_comma);
   constexpr std::string_view missing =
-      "|null|na|n/a|n.a.|n.v.|k.a.|none|missing|lost|void|empty|undefined|no data|nodata|no signal|over|ovld|ovl|ol|overflow|"
-      "overload|over range|overrange|out of range|outofrange|sat|saturated|clip|clipped|under|underflow|underrange|invalid|"
-      "bad|open|fault|fail|failed|";
-  std::string text = lower(cell);
-  if (text.find_first_not_of("-*?.") == std::string::npos) return nan;  // "---", "****"
+      "|null|na|nd|nb|nv|ka|none|missing|lost|void|empty|undefined|ndef|nodata|novalue|nosignal|noinput|notavailable|"
+      "keinedaten|"
+      "keinwert|over|ovld|ovl|ol|overflow|overload|overrange|outofrange|offscale|sat|saturated|clip|clipped|under|underflow|"
+      "underrange|invalid|bad|badvalue|open|opencircuit|burnout|fault|sensorfault|fail|failed|timeout|";
+  std::string text = io::lower_case(cell);
+  if (text.find_first_not_of("-+*?.") == std::string::npos) return nan;  // "---", "****"
   text.erase(0, text.front() == '-' || text.front() == '+' ? 1 : 0);
   const bool of_sheet = text.starts_with('#') || text.starts_with("1.#");  // "#N/A", "#WERT!", "1.#QNAN"
-  if ((of_sheet && text.find_first_of("23456789") == std::string::npos) || text.starts_with("nan") || is_one_of(missing, text))
-    return nan;
+  if ((of_sheet && text.find_first_of("23456789") == std::string::npos) || text.starts_with("nan")) return nan;
+  std::erase_if(text, [](char c) { return std::string_view(" ./_-<>").find(c) != std::string_view::npos; });
+  if (is_one_of(missing, text)) return nan;
   return {};
 }
 

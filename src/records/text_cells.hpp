@@ -21,8 +21,6 @@ namespace twindeck::records {
 [[nodiscard]] std::string_view trimmed(std::string_view text);
 /// @param words  with '|' before and behind each
 [[nodiscard]] bool is_one_of(std::string_view words, const std::string& word);
-/// Letters A to Z in lower case.
-[[nodiscard]] std::string lower(std::string_view text);
 [[nodiscard]] bool is_utf8(std::string_view text);
 using io::append_utf8;
 /// Latin-1 as UTF-8.

@@ -8,6 +8,7 @@
 #include <limits>
 
 #include "core/error.hpp"
+#include "io/letters.hpp"
 #include "io/text_lines.hpp"
 #include "records/header_rate.hpp"
 #include "records/record_clock.hpp"
@@ -154,7 +155,7 @@ bool looks_like_unit(std::string_view cell) {
 }
 
 bool is_known_unit(std::string_view cell) {
-  std::string text = lower(trimmed(cell));
+  std::string text = io::lower_case(trimmed(cell));
   if (text.size() > 2 && (text.front() == '[' || text.front() == '(')) text = text.substr(1, text.size() - 2);
   return is_one_of("|s|sec|ms|g|mg|m/s2|m/s^2|m/s\xC2\xB2|m/s/s|v|mv|m/s|mm/s|mm|m|um|\xC2\xB5m|hz|kn|n|gal|cm/s2|", text);
 }
@@ -214,10 +215,8 @@ void read_header_rate(const std::vector<std::string>& lines, std::size_t first, 
 /// [s] that the header gives a column of time, in its unit or at the end of its name ("time_ms"); 0 where it gives none.
 double header_time_unit_s(const TextLayout& layout, std::size_t column) {
   if (layout.names.empty()) return 0.0;
-  if (const double unit = time_unit_s(layout.units[column]); unit > 0.0) return unit;
-  const std::string& name = layout.names[column];
-  const std::size_t last = name.find_last_of(" _");
-  return last == std::string::npos ? 0.0 : time_unit_s(name.substr(last + 1));
+  const double unit = time_unit_s(layout.units[column]);
+  return unit > 0.0 ? unit : without_time_unit(layout.names[column]).second;
 }
 
 /// Rows of the table at the beginning of a file, as cells.
@@ -239,59 +238,105 @@ std::vector<std::vector<std::string_view>> first_rows(const std::vector<std::str
 /// The columns of the time stamps that are found, which another column replaces as the record's clock.
 void leave_stamps(TextLayout& layout) {
   if (layout.time_column >= 0) layout.other_times.push_back(static_cast<std::size_t>(layout.time_column));
-  if (layout.date_and_time) layout.other_times.push_back(static_cast<std::size_t>(layout.time_column) + 1);
-  layout.stamps = layout.date_and_time = false;
+  layout.stamps = false;
+  layout.time_parts.reset();
 }
 
-/// Columns of numbers that are time: by name if they rise, without names any that runs like time. The finest is the
-/// record's clock.
+/// Columns of numbers that are time: by name if they rise, without names any that runs like time, and where no name says time
+/// any that is even to a sample (a table of LabVIEW calls it X_Value). The finest is the record's clock.
 /// @param finest  stamps that differ, in the column that is found so far
 void find_numbers_of_time(const std::vector<std::vector<std::string_view>>& rows, std::size_t finest, TextLayout& layout) {
-  for (std::size_t c = 0; c < layout.columns; ++c) {
-    const bool named = !layout.names.empty() && is_time_name(layout.names[c]);
-    if (!number_in(rows.front()[c], layout.decimal_comma) || (!named && !layout.names.empty())) continue;
+  constexpr double other = 0.01;  // [-] off a rate: another clock
+  const bool names = !layout.names.empty();
+  double clock_Hz = 0.0;
+  const auto examine = [&](std::size_t c, bool named) {
     const double unit = header_time_unit_s(layout, c);
-    const bool other_unit = unit == 0.0 && !layout.names.empty() && !layout.units[c].empty();
+    const bool other_unit = unit == 0.0 && names && (named ? !layout.units[c].empty() : is_known_unit(layout.units[c]));
     StampedRows stamps;
     for (const auto& row : rows)
       stamps.add(number_in(row[c], layout.decimal_comma).value_or(std::numeric_limits<double>::quiet_NaN()));
     const bool letter = named && unit == 0.0 && trimmed(layout.names[c]).size() == 1;  // T may be a temperature
-    const bool time =
-        named && !letter && !other_unit ? stamps.mostly_rises() || stamps.clock(1.0).reversed : stamps.runs_like_time();
+    const bool time = named && !letter && !other_unit ? stamps.mostly_rises() || stamps.clock(1.0).reversed
+                                                      : (named || !other_unit) && stamps.runs_like_time(names && !named);
     if (!time) {
       if (named && !(letter && other_unit))
         layout.notes.push_back("column '" + layout.names[c] + "' does not run like time and is read as a channel");
-      continue;
+      return;
     }
-    if (layout.time_column >= 0 && stamps.distinct() <= finest) {
-      layout.other_times.push_back(c);
-      continue;
+    const double rate_Hz = stamps.distinct() == rows.size() ? stamps.clock(unit).rate_Hz : 0.0;
+    if (clock_Hz > 0.0 && rate_Hz > 0.0 && std::abs(rate_Hz / clock_Hz - 1.0) > other) {
+      layout.notes.push_back(
+          fmt::format("column {} runs at {:.6g} Hz, another of time at {:.6g} Hz: write the channels of each "
+                      "clock into a file of their own",
+                      c + 1, rate_Hz, clock_Hz));
     }
+    if (layout.time_column >= 0 && stamps.distinct() <= finest) return layout.other_times.push_back(c);
+    clock_Hz = rate_Hz;
     leave_stamps(layout);
     layout.time_column = static_cast<int>(c);
     layout.time_unit_s = unit;
     finest = stamps.distinct();
+  };
+  for (const bool named : {true, false}) {
+    if (!named && names && layout.time_column >= 0) return;
+    for (std::size_t c = 0; c < layout.columns; ++c) {
+      const bool taken = std::find(layout.other_times.begin(), layout.other_times.end(), c) != layout.other_times.end() ||
+                         static_cast<int>(c) == layout.time_column;
+      if (taken || (names && is_time_name(layout.names[c])) != named) continue;
+      if (number_in(rows.front()[c], layout.decimal_comma)) examine(c, named);
+    }
+  }
+}
+
+/// A column of dates, and one of times of day for them: "20240517" and "100000.25" look like numbers, and stand side by side.
+void find_date_and_time(const std::vector<std::vector<std::string_view>>& rows, TextLayout& layout) {
+  const auto is_number = [&](std::size_t c) { return number_in(rows.front()[c], layout.decimal_comma).has_value(); };
+  const auto belong = [&](std::size_t date, std::size_t time) {  // in nine rows of ten
+    return 10 * std::count_if(rows.begin(), rows.end(),
+                              [&](const std::vector<std::string_view>& row) {
+                                return time_stamp_meanings(std::string(row[date]) + " " + std::string(row[time])).empty();
+                              }) <=
+           std::ssize(rows);
+  };
+  for (std::size_t date = 0; date < layout.columns; ++date) {
+    if (!is_date(rows.front()[date])) continue;
+    for (std::size_t k = 1; k < layout.columns && layout.time_column < 0; ++k) {
+      const std::size_t time = (date + k) % layout.columns;  // the next one first
+      if ((k > 1 && is_number(time)) || !belong(date, time)) continue;
+      layout.time_column = static_cast<int>(time);
+      layout.date_column = static_cast<int>(date);
+    }
+    if (layout.date_column >= 0 || !is_number(date)) layout.other_times.push_back(date);
+    if (layout.date_column >= 0) return;
   }
 }
 
 void find_time(const std::vector<std::vector<std::string_view>>& rows, TextLayout& layout) {
   if (rows.empty()) return;
-  for (std::size_t c = 0; c < layout.columns && layout.time_column < 0; ++c) {
-    const std::string_view cell = rows.front()[c];
-    if (number_in(cell, layout.decimal_comma)) continue;
-    layout.time_column = static_cast<int>(c);
-    layout.stamps = true;
-    layout.date_and_time = is_date(cell) && c + 1 < layout.columns && !time_stamp_meanings(rows.front()[c + 1]).empty();
+  find_date_and_time(rows, layout);
+  const auto is_taken = [&](std::size_t c) {
+    return std::find(layout.other_times.begin(), layout.other_times.end(), c) != layout.other_times.end();
+  };
+  for (std::size_t c = 0; c < layout.columns; ++c) {
+    if (is_taken(c) || number_in(rows.front()[c], layout.decimal_comma)) continue;
+    if (layout.time_column < 0) layout.time_column = static_cast<int>(c);
+    if (static_cast<int>(c) != layout.time_column) layout.other_times.push_back(c);
   }
-  std::size_t distinct = 0;
-  if (layout.time_column >= 0) {
-    const auto from = static_cast<std::size_t>(layout.time_column), last = from + (layout.date_and_time ? 1 : 0);
-    for (std::size_t r = 1; r < rows.size(); ++r) distinct += rows[r][last] != rows[r - 1][last] ? 1 : 0;
-    for (std::size_t c = last + 1; c < layout.columns; ++c) {
-      if (!number_in(rows.front()[c], layout.decimal_comma)) layout.other_times.push_back(c);
+  layout.stamps = layout.time_column >= 0;
+  const auto last = static_cast<std::size_t>(std::max(layout.time_column, 0));
+  const std::string_view stamp = rows.front()[last];
+  if (!layout.stamps || stamp.find_first_of(".,", stamp.rfind(':')) == std::string_view::npos)  // no fraction of its own
+    layout.time_parts = find_time_parts(rows, layout.names, layout.decimal_comma, layout.stamps);
+  if (layout.time_parts) {
+    for (const int part : *layout.time_parts) {
+      if (part >= 0) layout.other_times.push_back(static_cast<std::size_t>(part));
     }
+    if (!layout.stamps) layout.time_column = (*layout.time_parts)[kSecond];
   }
-  find_numbers_of_time(rows, distinct + 1, layout);
+  std::size_t distinct = 1;
+  for (std::size_t r = 1; r < rows.size() && layout.time_column >= 0; ++r)
+    distinct += layout.time_parts || rows[r][last] != rows[r - 1][last] ? 1 : 0;
+  find_numbers_of_time(rows, distinct, layout);
 }
 
 /// A row whose last cells are missing, or whose cells are words for missing values: it belongs to the rows below it.
@@ -377,7 +422,7 @@ TextLayout find_layout(const fs::path& file) {
   const std::vector<std::string> lines = first_lines(file, layout);
   char fixed = '\0';
   if (!lines.empty()) {
-    const std::string first = lower(trimmed(lines.front()));
+    const std::string first = io::lower_case(trimmed(lines.front()));
     if (first.starts_with("sep=") && first.size() >= 5) fixed = first[4];
     if (first == "sep=") fixed = '\t';
   }

@@ -5,6 +5,8 @@
 #include <string>
 #include <vector>
 
+#include "records/split_time.hpp"
+
 namespace twindeck::records {
 
 /// How a text file holds its numbers.
@@ -22,8 +24,9 @@ struct TextLayout {
       unaligned;  ///< cells of the line above the numbers if it has another number of them than there are columns
   long unaligned_line = 0;
   int time_column = -1;
-  bool date_and_time = false;            ///< date in time_column, time of day in the next
+  int date_column = -1;                  ///< of the dates, where the stamps of time_column are times of day
   bool stamps = false;                   ///< time stamps, not numbers
+  std::optional<TimeParts> time_parts;   ///< columns of the time's parts, beside stamps of its milliseconds
   double time_unit_s = 0.0;              ///< [s] of numbers: 0.001 for milliseconds; 0 where the file does not say
   std::vector<std::size_t> other_times;  ///< further columns of time: no channels
   std::vector<std::string> notes;        ///< on columns whose names say time

@@ -8,12 +8,13 @@
 #include <string>
 #include <utility>
 
+#include "io/letters.hpp"
 #include "records/text_cells.hpp"
 
 namespace twindeck::records {
 namespace {
 
-constexpr double kHour = 3600.0, kDay = 86400.0;  ///< [s]
+constexpr double kHour_s = 3600.0, kDay_s = 86400.0;  ///< [s]
 
 bool is_digit(char c) { return c >= '0' && c <= '9'; }
 
@@ -63,7 +64,7 @@ long month_of(std::string_view word) {
       "01jan 01gen 01ene 02feb 02fev 02f\xC3\xA9v 03mar 03m\xC3\xA4r 03mrz 04apr 04abr 04avr 05may 05mai 05mag 06jun 06giu "
       "06juin 07jul 07lug 07juil 08aug 08ago 08ao\xC3\xBB 09sep 09set 10oct 10okt 10ott 11nov 12dec 12dez 12dic 12d\xC3\xA9"
       "c";
-  const std::string name = lower(word);
+  const std::string name = io::lower_case(word);
   for (const std::size_t letters : {4, 3}) {
     const std::size_t at = name.size() < letters ? std::string::npos : months.find(name.substr(0, letters));
     if (at != std::string::npos && months[at - 1] <= '9') return 10 * (months[at - 2] - '0') + months[at - 1] - '0';
@@ -96,7 +97,7 @@ std::optional<DayTime> time_of_day(Scanner& in, bool behind_date) {
   long hour = 0, minute = 0, second = 0, part = 0;
   int digits = 0;
   if (!in.number(hour, digits)) return {};
-  if (behind_date && digits == 6) {
+  if (behind_date && (digits == 5 || digits == 6)) {  // 93000: half past nine as a number
     second = hour % 100;
     minute = hour / 100 % 100;
     hour /= 10000;
@@ -111,7 +112,7 @@ std::optional<DayTime> time_of_day(Scanner& in, bool behind_date) {
       in.one_of(".,:") && in.number(part, digits) ? static_cast<double>(part) * std::pow(10.0, -digits) : 0.0;
   in.skip_blanks();
   std::string_view word = in.word();
-  if (const std::string half = lower(word); half == "am" || half == "pm") {
+  if (const std::string half = io::lower_case(word); half == "am" || half == "pm") {
     hour = hour % 12 + (half == "pm" ? 12 : 0);
     in.skip_blanks();
     word = in.word();
@@ -150,11 +151,8 @@ std::vector<double> days_at(Scanner& in) {
   if (named == 2 || (loose && named < 0)) return {};
   std::vector<double> days;
   const auto add = [&](long year, long month, long day) {
-    if (year < 100) year += year < 70 ? 2000 : 1900;
     if (month < 1 || month > 12 || day < 1 || day > 31) return;
-    const std::chrono::year_month first{std::chrono::year(static_cast<int>(year)),
-                                        std::chrono::month(static_cast<unsigned>(month))};
-    days.push_back(static_cast<double>(std::chrono::sys_days(first / 1).time_since_epoch().count() + day - 1));
+    days.push_back(days_since_1970(static_cast<int>(year), static_cast<unsigned>(month), static_cast<int>(day)));
   };
   const auto [a, b, c] = part;
   if (first_digits == 8) {
@@ -179,6 +177,11 @@ bool is_minutes(std::string_view text) {
 
 }  // namespace
 
+double days_since_1970(int year, unsigned month, int day) {
+  const std::chrono::year full(year + (year >= 100 ? 0 : year < 70 ? 2000 : 1900));
+  return static_cast<double>(std::chrono::sys_days(full / std::chrono::month(month) / 1).time_since_epoch().count() + day - 1);
+}
+
 std::vector<double> time_stamp_meanings(std::string_view text) {
   if (text.find_first_of(":T_ ") == std::string_view::npos || text.find_first_of("0123456789") == std::string_view::npos)
     return {};
@@ -192,7 +195,7 @@ std::vector<double> time_stamp_meanings(std::string_view text) {
   in.skip_blanks();
   const auto time = meanings.empty() ? std::nullopt : time_of_day(in, true);
   if (!time) return {};
-  for (double& meaning : meanings) meaning = kDay * meaning + time->seconds - time->ahead;
+  for (double& meaning : meanings) meaning = kDay_s * meaning + time->seconds - time->ahead;
   return meanings;
 }
 
@@ -207,7 +210,7 @@ std::optional<double> TimeStampReader::next(std::string_view text) {
   if (meanings.empty()) return {};
   if (is_minutes(text)) {
     constexpr double least = 0.98;  // of an hour, that a step back over a full hour is at least
-    if (last_ && *last_ - hours_ - meanings[0] > least * kHour) hours_ += kHour;
+    if (last_ && *last_ - hours_ - meanings[0] > least * kHour_s) hours_ += kHour_s;
     meanings[0] += hours_;
   }
   std::size_t best = 0;

@@ -13,6 +13,9 @@ namespace twindeck::records {
 /// zone, whose offset (+02:00) is taken off a date's time.
 [[nodiscard]] std::vector<double> time_stamp_meanings(std::string_view text);
 
+/// Days from 1970-01-01 to a date of the calendar. @param year  of two digits: 1970 to 2069 @param month  1 to 12
+[[nodiscard]] double days_since_1970(int year, unsigned month, int day);
+
 /// "2021-04-03", "03.04.2021", "4/3/21", "3-Apr-2021": a date without a time.
 [[nodiscard]] bool is_date(std::string_view cell);
 

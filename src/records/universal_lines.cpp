@@ -8,6 +8,7 @@
 #include <cstdlib>
 
 #include "core/error.hpp"
+#include "io/letters.hpp"
 #include "io/regular_file.hpp"
 
 namespace twindeck::records {
@@ -84,18 +85,10 @@ long label_of(UniversalLines& in, double number) {
   return number < 0.0 ? -*size : *size;
 }
 
-bool is_delimiter(const std::string& line) {
-  const std::size_t first = line.find_first_not_of(" \t");
-  if (first == std::string::npos || line.compare(first, 2, "-1") != 0) return false;
-  return line.find_first_not_of(" \t", first + 2) == std::string::npos;
-}
+bool is_delimiter(const std::string& line) { return io::without_blanks(line, " \t") == "-1"; }
 
 std::string field(const std::string& line, std::size_t from, std::size_t width) {
-  if (from >= line.size()) return "";
-  const std::string text = line.substr(from, width);
-  const std::size_t first = text.find_first_not_of(" \t");
-  if (first == std::string::npos) return "";
-  return text.substr(first, text.find_last_not_of(" \t") - first + 1);
+  return from < line.size() ? std::string(io::without_blanks(std::string_view(line).substr(from, width), " \t")) : "";
 }
 
 bool is_blank(const std::string& line) { return line.find_first_not_of(" \t\x1a") == std::string::npos; }

@@ -108,7 +108,8 @@ TEST(ExportedTable, WordsForWhatIsMissingAndTextThatIsNone) {
     for (int t = 1; t < 300; ++t) text += fmt::format("{:.2f},{},{}\n", 0.01 * t, t == 50 ? word : cell(wave(t, 0)), "0.5");
     return text;
   };
-  for (const char* word : {"overflow", "Fault", "#WERT!", "#N/A", "saturated", "n.v.", "-Infinity"}) {
+  for (const char* word : {"overflow", "Fault", "#WERT!", "#N/A", "saturated", "n.v.", "-Infinity", "n.d.", "N/D", "No Value",
+                           "<null>", "BurnOut", "Under Range", "+++++", "9.91E+37", "3.402823466e+38"}) {
     const Record record = read(scratch.write("a.csv", table(word)));
     ASSERT_EQ(record.samples.rows(), 300) << word;
     EXPECT_TRUE(std::isnan(record.samples(50, 0)) && std::isnan(record.samples(0, 0))) << word;
@@ -119,6 +120,31 @@ TEST(ExportedTable, WordsForWhatIsMissingAndTextThatIsNone) {
   EXPECT_NE(refusal(scratch.write("b.csv", text)).find("empty the cell"), std::string::npos);
   EXPECT_NE(refusal(scratch.write("c.csv", "P1,P2\nA7,1\nA7,2\nA7,3\n")).find("line 3 has 'A7' in column 1"),
             std::string::npos);
+}
+
+TEST(ExportedTable, TimeUnderANameThatDoesNotSayIt) {
+  const Scratch scratch;
+  std::string text = "X_Value,P1,P2\n", drift = "Drift,P1,P2\n";
+  for (int t = 0; t < 400; ++t) {
+    text += fmt::format("{:.6f},{},{}\n", t / 100.8, cell(wave(t, 0)), cell(wave(t, 1)));
+    drift += fmt::format("{:.6f},{},{}\n", std::sqrt(t + 1.0), cell(wave(t, 0)), cell(wave(t, 1)));
+  }
+  const Record record = read(scratch.write("a.csv", text));
+  expect_waves(record, 400, 2, "X_Value");
+  EXPECT_NEAR(record.info.rate_Hz, 100.8, 1e-3);
+  EXPECT_EQ(read(scratch.write("b.csv", drift)).info.channels.size(), 3U);
+}
+
+TEST(ExportedTable, AClockForEachChannel) {
+  const Scratch scratch;
+  for (const double other : {1.0, 0.5}) {
+    std::string text = "Time 1,P1,Time 2,P2\n";
+    for (int t = 0; t < 400; ++t)
+      text += fmt::format("{:.4f},{},{:.4f},{}\n", t / 100.8, cell(wave(t, 0)), t / (100.8 * other), cell(wave(t, 1)));
+    const Record record = read(scratch.write("a.csv", text));
+    expect_waves(record, 400, 2, "two clocks");
+    EXPECT_EQ(told(record.info, "column 3 runs at 50.4 Hz, another of time at 100.8 Hz"), other == 0.5);
+  }
 }
 
 TEST(ExportedTable, Utf16WithAndWithoutItsMark) {
@@ -307,6 +333,9 @@ TEST(UniversalNames, TheUnitOfTheAbscissaCounts) {
   for (std::size_t at = 0; (at = text.find("Time                 s ", at)) != std::string::npos; ++at)
     text.replace(at + 21, 2, "ms");
   EXPECT_NEAR(read(scratch.write("ms.uff", text)).info.rate_Hz, 128.0, 1e-3);
+  for (std::size_t at = 0; (at = text.find("Time                 ms", at)) != std::string::npos; ++at)
+    text.replace(at + 21, 2, "??");
+  EXPECT_NEAR(read(scratch.write("likely.uff", text)).info.rate_Hz, 128.0, 1e-3);
 }
 
 TEST(ColumnMatch, AnotherSpellingIsMatchedWithAWord) {

@@ -52,6 +52,13 @@ TEST(RecordClock, EvenStampsWhateverTheirDigitsAndUnit) {
   expect_rate(stamped(2500, [&](int i) { return 1e9 * epoch + 1e7 * i; }).clock(0.0), 100.0, "ns");
   expect_rate(stamped(2500, [](int i) { return 1e4 * i; }).clock(0.0), 100.0, "us since the start");
   expect_rate(stamped(2500, [](int i) { return 45429.41 + i * 0.01 / 86400.0; }).clock(0.0), 100.0, "days");
+  for (const double start : {6.385e17, 1.338e17})
+    expect_rate(stamped(2500, [&](int i) { return start + 1e5 * i; }).clock(0.0), 100.0, "ticks of 100 ns");
+}
+
+TEST(RecordClock, TwoCoarseStampsSayNoRate) {
+  EXPECT_EQ(stamped(3000, [](int i) { return i < 1000 ? 0.0 : 60.0; }).clock(1.0).rate_Hz, 0.0);
+  expect_rate(stamped(3000, [](int i) { return std::floor((i + 60) / 1000.0); }).clock(1.0), 1000.0, "one whole second");
 }
 
 TEST(RecordClock, LateStampsAndPacketsGiveTheRateWithinItsDeviation) {

@@ -1,0 +1,96 @@
+#include "records/split_time.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "io/letters.hpp"
+#include "records/text_cells.hpp"
+#include "records/time_stamp.hpp"
+
+namespace twindeck::records {
+
+namespace {
+
+constexpr TimeParts kNoParts = {-1, -1, -1, -1, -1, -1, -1};
+
+/// What a part is called in lower case, and what it may be. The year of a name may have two digits.
+struct Part {
+  std::string_view names;
+  double least, below;
+};
+constexpr std::array<Part, kTimeParts> kParts = {
+    {{"|year|yyyy|yy|yr|jahr|anno|ano|annee|", 1970.0, 2100.0},
+     {"|month|mon|mo|mm|monat|mese|mes|mois|", 1.0, 13.0},
+     {"|day|dd|tag|giorno|dia|jour|doy|day of year|dayofyear|", 1.0, 367.0},
+     {"|hour|hours|hh|hr|stunde|ora|ore|hora|heure|", 0.0, 25.0},
+     {"|minute|minutes|min|mi|mn|mm|minuto|minuti|", 0.0, 60.0},
+     {"|second|seconds|sec|ss|s|sekunde|secondo|secondi|segundo|seconde|", 0.0, 61.0},
+     {"|ms|msec|millis|millisec|millisecond|milliseconds|millisekunde|millisecondi|", 0.0, 1000.0}}};
+
+/// Each row has what a part may be in each of their columns.
+bool hold_parts(const std::vector<std::vector<std::string_view>>& rows, const TimeParts& parts, bool decimal_comma,
+                bool named) {
+  return std::all_of(rows.begin(), rows.end(), [&](const std::vector<std::string_view>& cells) {
+    for (std::size_t k = 0; k < kTimeParts; ++k) {
+      if (parts[k] < 0) continue;
+      const auto value = number_in(cells[static_cast<std::size_t>(parts[k])], decimal_comma);
+      const double least = k == kYear && named ? 0.0 : kParts[k].least;
+      if (!value || !(*value >= least && *value < kParts[k].below) || (k < kSecond && *value != std::floor(*value)))
+        return false;
+    }
+    return true;
+  });
+}
+
+TimeParts by_name(const std::vector<std::string>& names) {
+  TimeParts parts = kNoParts;
+  for (std::size_t c = 0; c < names.size(); ++c) {
+    const std::string name = io::lower_case(trimmed(names[c]));
+    for (std::size_t k = 0; k < kTimeParts; ++k) {
+      if (parts[k] >= 0 || !is_one_of(kParts[k].names, name)) continue;
+      parts[k] = static_cast<int>(c);
+      break;  // "MM" is the month, "mm" behind it the minute
+    }
+  }
+  return parts;
+}
+
+}  // namespace
+
+std::optional<TimeParts> find_time_parts(const std::vector<std::vector<std::string_view>>& rows,
+                                         const std::vector<std::string>& names, bool decimal_comma, bool stamped) {
+  TimeParts parts = by_name(names);
+  const int millisecond = parts[kMillisecond];
+  const auto there = [&](std::size_t k) { return parts[k] >= 0; };
+  if (stamped) {
+    std::fill_n(parts.begin(), kMillisecond, -1);
+    return there(kMillisecond) && hold_parts(rows, parts, decimal_comma, true) ? std::optional(parts) : std::nullopt;
+  }
+  const bool time = there(kHour) && there(kMinute) && there(kSecond), date = there(kYear) && there(kDay);
+  if (!date) std::fill_n(parts.begin(), kHour, -1);
+  if (time && hold_parts(rows, parts, decimal_comma, true)) return parts;
+  for (int c = 0; c + static_cast<int>(kSecond) < static_cast<int>(rows.front().size()); ++c) {
+    for (const int year : {0, 2}) {
+      parts = {c + year, c + 1, c + 2 - year, c + 3, c + 4, c + 5, millisecond};
+      if (hold_parts(rows, parts, decimal_comma, false)) return parts;
+    }
+  }
+  return {};
+}
+
+std::optional<double> seconds_of_parts(const std::vector<std::string_view>& cells, const TimeParts& parts, bool decimal_comma) {
+  std::array<double, kTimeParts> value{};
+  for (std::size_t k = 0; k < kTimeParts; ++k) {
+    if (parts[k] < 0) continue;
+    const auto number = number_in(cells[static_cast<std::size_t>(parts[k])], decimal_comma);
+    if (!number || !std::isfinite(*number)) return {};
+    value[k] = *number;
+  }
+  const double month = parts[kMonth] < 0 ? 1.0 : value[kMonth];
+  const double days = parts[kYear] < 0 ? 0.0
+                                       : days_since_1970(static_cast<int>(value[kYear]), static_cast<unsigned>(month),
+                                                         static_cast<int>(value[kDay]));
+  return 86400.0 * days + 3600.0 * value[kHour] + 60.0 * value[kMinute] + value[kSecond] + 1e-3 * value[kMillisecond];
+}
+
+}  // namespace twindeck::records
