@@ -47,20 +47,26 @@ std::string stamp_of(const std::string& kind, Eigen::Index t) {
   if (kind == "gap")  // five seconds are missing from sample 1000 on
     return "2024-05-17 " + time_of_day(36000.0 + std::floor((t < 1000 ? at : at + 250.0) / kRate_Hz), 0);
   if (kind == "midnight") return time_of_day(86390.0 + at / kRate_Hz, 2);
+  if (kind == "parts")  // in columns of its parts, at 50.4 Hz
+    return fmt::format("2024,5,17,10,{:.0f},{:.3f}", std::floor(at / true_rate_Hz / 60.0), std::fmod(at / true_rate_Hz, 60.0));
   if (kind == "reversed") return fmt::format("{:.2f}", static_cast<double>(kSamples - t) / kRate_Hz);
   return fmt::format("{:.2f}", at / kRate_Hz);
 }
 
-/// @param kind  of stamps; or of what C_z does: stuck, copy (of A_x), slow (one value in fifty); or csv
+/// @param kind  of stamps; or of what C_z does: stuck, copy (of A_x), scaled (3 - 2.5 A_x), slow (one value in fifty); doubled
+/// (the second half is the first again); or csv
 void write_csv(const fs::path& file, const std::string& kind) {
-  const MatrixXd record = sound_record();
+  MatrixXd record = sound_record();
   std::ofstream out(file);
   out << (kind == "packets" || kind == "seconds" ? "timestamp"
           : kind == "midnight" || kind == "gap"  ? "time"
+          : kind == "parts"                      ? "Year,Month,Day,Hour,Minute,Second"
                                                  : "time_s")
       << ",A_x,B_x,C_z\n";
+  if (kind == "doubled") record.bottomRows(kSamples / 2) = record.topRows(kSamples / 2).eval();
   for (Eigen::Index t = 0; t < kSamples; ++t) {
     const double last = kind == "copy"                             ? record(t, 0)
+                        : kind == "scaled"                         ? 3.0 - 2.5 * record(t, 0)
                         : kind == "stuck" && t >= 1000 && t < 1300 ? record(1000, 2)
                                                                    : record(t, 2);
     out << fmt::format("{},{:.9g},{:.9g},{}\n", stamp_of(kind, t), record(t, 0), record(t, 1),
@@ -153,8 +159,14 @@ MatrixXd sound_record() {
 
 void write_sound_record(const fs::path& file, const std::string& format) {
   fs::create_directories(file.parent_path());
-  for (const char* kind : {"csv", "packets", "late", "seconds", "gap", "midnight", "reversed", "stuck", "copy", "slow"}) {
+  for (const char* kind : {"csv", "packets", "late", "seconds", "gap", "midnight", "reversed", "parts", "stuck", "copy",
+                           "scaled", "doubled", "slow"}) {
     if (format == kind) return write_csv(file, format);
+  }
+  if (format == "timed") {  // time at 50.4 Hz in the last column
+    MatrixXd timed(kSamples, 4);
+    timed << sound_record(), Eigen::VectorXd::LinSpaced(kSamples, 0.0, (kSamples - 1) / 50.4);
+    return io::write_npy(timed, file);
   }
   if (format == "npy") return io::write_npy(sound_record(), file);
   if (format == "mat4") return write_mat4(file);
