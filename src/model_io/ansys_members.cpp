@@ -9,7 +9,7 @@
 
 #include "core/error.hpp"
 #include "model_io/ansys_sections.hpp"
-#include "model_io/inp_profiles.hpp"
+#include "model_io/profiles.hpp"
 
 /// Beams, bars, shells and solids; springs, masses and supports.
 namespace twindeck::model_io::ansys {
@@ -73,8 +73,7 @@ void add_beam(Builder& builder, const Member& member) {
     z = (z - z.dot(axis) * axis).normalized();
     if (cross.turn_rad != 0.0 && member.element.nodes.size() == 2) z = Eigen::AngleAxisd(cross.turn_rad, axis) * z;
     piece.orientation = z;
-    const Eigen::Vector3d offset = -(cross.node[0] * z.cross(axis) + cross.node[1] * z);
-    piece.offset_m = {offset, offset};
+    DeckModel::put_beside(piece, axis, -cross.node);
   });
 }
 

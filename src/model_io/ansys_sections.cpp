@@ -2,12 +2,14 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <optional>
 
 #include "core/error.hpp"
 #include "model_io/ansys_stage.hpp"
-#include "model_io/inp_profiles.hpp"
+#include "model_io/profiles.hpp"
 
 /// Sections and real constants as cross-sections. ANSYS's element axes are ours: y and z across the beam, IYY = ∫ z² dA is
 /// inertia_y, the first dimension of a rectangle lies along y.
@@ -85,12 +87,11 @@ fe::Section pipe_of_reals(const Builder& builder, const Member& member, double p
     const bool is_factor = i == 3 || i == 4;
     if (!is_factor) require_zero(builder, member, r, i, "a fluid, an insulation or a corrosion allowance", give_density);
   }
-  std::string problem;
-  fe::Section s = profile_section(
-      "PIPE", {positive(builder, member, r, 1, "outer diameter") / 2.0, positive(builder, member, r, 2, "wall")}, poisson_ratio,
-      problem);
-  if (!problem.empty()) builder.parts.at(r.line, "R").fail("is wrong: " + problem, "give the outer diameter and the wall");
-  return s;
+  const double radius = positive(builder, member, r, 1, "outer diameter") / 2.0;
+  const ProfileSection s = profile_section(circle(radius, radius - positive(builder, member, r, 2, "wall")), poisson_ratio);
+  if (!s.possible)
+    builder.parts.at(r.line, "R").fail("is wrong: the wall is thicker than the radius", "give the outer diameter and the wall");
+  return s.section;
 }
 
 /// SECDATA of a pipe: outer diameter, wall, cells around, stress stiffness, cells across; then insulation and its material.
@@ -124,29 +125,35 @@ fe::Section general_section(const Builder& builder, const Member& member, const 
   return s;
 }
 
-/// Dimensions of a profile in the words of inp_profiles.hpp: name and values, empty for a shape that has none.
-Profile profile_of(const std::string& shape, const std::vector<double>& values) {
-  const auto at = [&](std::size_t i) { return i < values.size() ? values[i] : 0.0; };
-  if (shape == "RECT") return {"RECT", {at(0), at(1)}};
-  if (shape == "CSOLID") return {"CIRC", {at(0)}};
-  if (shape == "CTUBE") return {"PIPE", {at(1), at(1) - at(0)}};
+/// A shape of SECTYPE,,BEAM from its SECDATA, twelve values and more.
+std::optional<Shape> draw(const std::string& subtype, const std::vector<double>& d) {
+  if (subtype == "RECT") return rectangles({{0.0, 0.0, d[0], d[1]}});
+  if (subtype == "CSOLID") return circle(d[0]);
+  if (subtype == "CTUBE") return circle(d[1], d[0]);
   // lower and upper flange, depth, their thicknesses, web
-  if (shape == "I") return {"I", {at(2) / 2.0, at(2), at(0), at(1), at(3), at(4), at(5)}};
-  // width, depth, four walls: only where all are one does their order not matter
-  if (shape == "HREC" && at(2) == at(3) && at(3) == at(4) && at(4) == at(5))
-    return {"BOX", {at(0), at(1), at(2), at(2), at(2), at(2)}};
-  return {};
+  if (subtype == "I") return i_shape(d[2], {d[0], d[1]}, {d[3], d[4]}, d[5]);
+  if (subtype == "CHAN" || subtype == "Z") return channel(d[2], {d[0], d[1]}, {d[3], d[4]}, d[5], subtype == "Z");
+  if (subtype == "L") return angle(d[0], d[1], d[2], d[3]);
+  if (subtype == "T") return i_shape(d[1], {d[0], 0.0}, {d[2], 0.0}, d[3]);
+  if (subtype == "HATS") return hat(d[3], d[2], {d[0], d[1]}, {d[4], d[5], d[6], d[7], d[8]});
+  if (subtype == "HREC") return box(d[0], d[1], {d[3], d[5], d[2], d[4]});  // walls left, right, lower, upper
+  if (subtype != "QUAD") return std::nullopt;
+  Shape shape;
+  for (std::size_t i = 0; i < 8; i += 2) shape.outline.emplace_back(d[i], d[i + 1]);
+  return shape;
 }
 
 /// Where the node lies in the section, from the centroid.
-Eigen::Vector2d node_place(const Builder& builder, const Member& member, const SectionDefinition& section) {
-  const std::string& where = section.offset;
-  if (where.empty() || where == "CENT" || where == "SHRC") return {0.0, 0.0};
-  const bool centred = section.subtype == "RECT" || section.subtype == "CSOLID" || section.subtype == "CTUBE";
-  if (!centred || (where != "USER" && where != "ORIG"))
+Eigen::Vector2d node_place(const Builder& builder, const Member& member, const SectionDefinition& section,
+                           const ProfileSection& profile) {
+  const std::string &where = section.offset, &shape = section.subtype;
+  if (where.empty() || where == "CENT" || (where == "SHRC" && !profile.beside)) return {0.0, 0.0};
+  const bool centred = shape == "RECT" || shape == "CSOLID" || shape == "CTUBE";
+  if ((!centred && shape != "QUAD") || (where != "USER" && where != "ORIG"))
     refuse_section(builder, member, section, fmt::format("is offset by '{}', which is not supported for this shape", where),
                    "use CENT, and rigid links for the eccentricity");
-  return where == "USER" ? Eigen::Vector2d(section.offset_m[0], section.offset_m[1]) : Eigen::Vector2d(0.0, 0.0);
+  const Eigen::Vector2d origin = centred ? Eigen::Vector2d(0.0, 0.0) : profile.centroid;
+  return (where == "USER" ? Eigen::Vector2d(section.offset_m[0], section.offset_m[1]) : Eigen::Vector2d(0.0, 0.0)) - origin;
 }
 
 }  // namespace
@@ -177,21 +184,26 @@ CrossSection beam_section(Builder& builder, const Member& member, double poisson
         pipe ? "give SECTYPE,number,PIPE and SECDATA,outer diameter,wall" : "give SECTYPE,number,BEAM,shape and SECDATA");
   std::vector<double> values;
   for (const auto& row : section->data) values.insert(values.end(), row.begin(), row.end());
+  ProfileSection profile;
   if (section->subtype == "ASEC") {
-    cross.section = general_section(builder, member, *section, values);
+    profile.section = general_section(builder, member, *section, values);
   } else {
     if (pipe) refuse_filled_pipe(builder, member, *section, values);
-    const Profile profile =
-        pipe && values.size() > 1 ? Profile{"PIPE", {values[0] / 2.0, values[1]}} : profile_of(section->subtype, values);
-    if (profile.name.empty())
+    values.resize(std::max<std::size_t>(values.size(), 12));
+    const std::optional<Shape> shape =
+        pipe ? circle(values.at(0) / 2.0, values.at(0) / 2.0 - values.at(1)) : draw(section->subtype, values);
+    if (!shape)
       refuse_section(builder, member, *section, fmt::format("is a '{}' that is not supported", section->subtype),
-                     "supported are RECT, CSOLID, CTUBE, I of two equal flanges, HREC of four equal walls, and ASEC, which any "
-                     "section can be given as");
-    std::string problem;
-    cross.section = profile_section(profile.name, profile.values, poisson_ratio, problem);
-    if (!problem.empty()) refuse_section(builder, member, *section, "is wrong: " + problem, "check its SECDATA");
+                     "supported are RECT, QUAD, CSOLID, CTUBE, CHAN, I, Z, L, T, HATS, HREC and ASEC, which any section can "
+                     "be given as");
+    profile = profile_section(*shape, poisson_ratio);
+    if (!profile.possible)
+      refuse_section(builder, member, *section, "is wrong: a dimension is not above 0, or the dimensions do not fit together",
+                     "check its SECDATA");
+    if (profile.beside) builder.parts.note_once(note_beside(section_name(member, *section)));
   }
-  cross.node = node_place(builder, member, *section);
+  cross.section = profile.section;
+  cross.node = node_place(builder, member, *section, profile);
   cross.section.name = section_name(member, *section);
   return cross;
 }

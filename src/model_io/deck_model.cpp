@@ -10,8 +10,8 @@
 
 #include "core/error.hpp"
 #include "fe/beam_frame.hpp"
-#include "model_io/inp_profiles.hpp"
 #include "model_io/model_toml.hpp"
+#include "model_io/profiles.hpp"
 
 namespace twindeck::model_io {
 
@@ -83,6 +83,11 @@ Eigen::Vector3d DeckModel::local_z(const DeckPlace& at, const std::string& membe
   return z.normalized();
 }
 
+void DeckModel::put_beside(fe::Element& piece, const Eigen::Vector3d& axis, const Eigen::Vector2d& point) {
+  const Eigen::Vector3d offset = point[0] * piece.orientation.cross(axis.normalized()) + point[1] * piece.orientation;
+  piece.offset_m = {offset, offset};
+}
+
 void DeckModel::check_poisson_ratio(const DeckPlace& at, double ratio) {
   if (!(ratio > -1.0 && ratio < 0.5))
     at.fail(fmt::format("Poisson's ratio is {}, expected a value in ]-1, 0.5[", ratio),
@@ -113,7 +118,37 @@ void DeckModel::tie_at_arm(const DeckPlace& at, const std::function<std::string(
   }
 }
 
-void DeckModel::follow_first(const std::string& name, const DeckEquation& equation) {
+std::vector<fe::Constraint::Term> DeckModel::free_terms(const std::vector<fe::Constraint::Term>& terms) const {
+  constexpr int longest_chain = 200;
+  std::vector<fe::Constraint::Term> now = terms, next;
+  for (int round = 0; round < longest_chain; ++round, now = next) {
+    next.clear();
+    const auto add = [&](const fe::Constraint::Term& term) {
+      const auto same = std::find_if(next.begin(), next.end(), [&](const fe::Constraint::Term& t) {
+        return t.node == term.node && t.direction == term.direction;
+      });
+      if (same == next.end()) return next.push_back(term);
+      same->factor += term.factor;
+    };
+    bool any = false;
+    for (const fe::Constraint::Term& term : now) {
+      const auto by = std::find_if(model.constraints.begin(), model.constraints.end(), [&](const fe::Constraint& c) {
+        return c.node == term.node && c.direction == term.direction;
+      });
+      if (by == model.constraints.end()) {
+        add(term);
+        continue;
+      }
+      any = true;
+      for (const fe::Constraint::Term& under : by->terms) add({under.node, under.direction, term.factor * under.factor});
+    }
+    if (!any) break;
+  }
+  return next;
+}
+
+void DeckModel::follow_first(const std::string& name, const DeckEquation& given) {
+  const DeckEquation equation{given.at, free_terms(given.terms)};
   const fe::Constraint::Term& slave = equation.terms[0];
   if (slave.factor == 0.0)
     equation.at.fail("the coefficient of the first term is 0, so that nothing follows from it",
@@ -219,6 +254,41 @@ void DeckModel::hold(const std::string& name, int node, const Directions& fixed)
   if (is_new) model.supports.push_back({name, node, {}});
   Directions& held = model.supports[entry->second].fixed;
   for (std::size_t d = 0; d < 6; ++d) held[d] = held[d] || fixed[d];
+}
+
+void DeckModel::hold_along(const DeckPlace& at, const std::string& name, int node, const Eigen::Matrix3d& axes,
+                           const Directions& own) {
+  constexpr double nothing = 1e-9;  // [-] of a unit vector
+  Directions fixed{};
+  for (std::size_t first = 0; first < 6; first += 3) {
+    const auto is_held = [&](Eigen::Index d) { return own[first + static_cast<std::size_t>(d)]; };
+    const int count = is_held(0) + is_held(1) + is_held(2);
+    if (count % 3 == 0) {
+      std::fill_n(fixed.begin() + static_cast<std::ptrdiff_t>(first), 3, count == 3);
+      continue;
+    }
+    // The one axis that is held, or that is not: u has no part along it, or lies along it.
+    Eigen::Index axis = 0, largest = 0;
+    while (is_held(axis) != (count == 1)) ++axis;
+    const Eigen::RowVector3d line = axes.row(axis);
+    line.cwiseAbs().maxCoeff(&largest);
+    for (Eigen::Index d = 0; d < 3; ++d) {
+      if ((d == largest) != (count == 1)) continue;
+      fe::Constraint c{"", node, static_cast<int>(first) + static_cast<int>(d), {}};
+      for (Eigen::Index other = 0; other < 3; ++other) {
+        const double factor = count == 1 ? -line[other] / line[d] : line[d] / line[other];
+        const bool counts = count == 1 ? other != d : other == largest;
+        if (counts && std::abs(factor) > nothing)
+          c.terms.push_back({node, static_cast<int>(first + static_cast<std::size_t>(other)), factor});
+      }
+      c.name = numbered("skew_support");
+      if (c.terms.empty())
+        fixed[fe::slot(c.direction)] = true;
+      else
+        add_constraint(c, at);
+    }
+  }
+  if (fixed != Directions{}) hold(name, node, fixed);
 }
 
 void DeckModel::add_spring(const std::string& name, const std::string& group, int node, int node2, int direction,

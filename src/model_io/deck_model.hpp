@@ -63,6 +63,8 @@ struct DeckModel {
   /// Local z of a member from a vector in its x-y plane. @throws InputError at `at` where that lies along the axis
   [[nodiscard]] static Eigen::Vector3d local_z(const DeckPlace& at, const std::string& member, const Eigen::Vector3d& axis,
                                                const Eigen::Vector3d& in_plane, const std::string& mend);
+  /// Moves a beam, whose orientation is its local z, off its nodes to a point of the section's y and z.
+  static void put_beside(fe::Element& piece, const Eigen::Vector3d& axis, const Eigen::Vector2d& point);
   /// @throws InputError for a ratio out of ]-1, 0.5[
   static void check_poisson_ratio(const DeckPlace& at, double ratio);
 
@@ -77,6 +79,8 @@ struct DeckModel {
   /// The slave follows the master at the end of a rigid arm in some directions, a constraint each. @param name by direction
   void tie_at_arm(const DeckPlace& at, const std::function<std::string(int)>& name, int master, int slave,
                   const Directions& tied);
+  /// The terms with those that follow others by a constraint expressed by what they follow, each displacement once.
+  [[nodiscard]] std::vector<fe::Constraint::Term> free_terms(const std::vector<fe::Constraint::Term>& terms) const;
   /// The first term follows the others. @throws InputError for one that has the factor 0, or follows nothing
   void follow_first(const std::string& name, const DeckEquation& equation);
   /// Whether the equations say what `slave` does as part of `master`, each one direction, all of them together.
@@ -96,6 +100,9 @@ struct DeckModel {
 
   /// Holds a node; what holds it already stays.
   void hold(const std::string& name, int node, const Directions& fixed);
+  /// Holds a node along its own axes (rows), three displacements and three rotations: a component that is skew to the global
+  /// axes becomes equations of the node's displacements.
+  void hold_along(const DeckPlace& at, const std::string& name, int node, const Eigen::Matrix3d& axes, const Directions& own);
   /// A spring given by the node's own directions 0-5 in `axes` (rows).
   void add_spring(const std::string& name, const std::string& group, int node, int node2, int direction,
                   const Eigen::Matrix3d& axes, double stiffness, double damping = 0.0);

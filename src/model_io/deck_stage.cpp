@@ -161,10 +161,16 @@ void DeckStage::load(int node, const Eigen::Vector3d& force, const Eigen::Vector
   for (int d = 0; d < 3; ++d) load(node, 3 + d, moment[d]);
 }
 
-void DeckStage::move(const DeckPlace& at, int node, int direction, double value) {
-  if (direction > 2 && value != 0.0)
-    at.fail("turns a support by an angle that is not zero, which is not read",
+void DeckStage::move(const DeckPlace& at, int node, int direction, double value, const Eigen::Matrix3d& axes) {
+  constexpr double aligned = 1.0 - 1e-9;
+  Eigen::Index along = 0;
+  const bool skew = axes.row(direction % 3).cwiseAbs().maxCoeff(&along) < aligned;
+  if ((direction > 2 || skew) && value != 0.0)
+    at.fail("turns a support, or moves it along an axis that is skew to the global ones, which is not read",
             "load the model by forces, or move its supports along the global axes");
+  if (skew || direction > 2) return;
+  value *= axes(direction, along);
+  direction = static_cast<int>(along);
   std::erase_if(model_.prestress.loads, [&](const fe::Prestress::Load& load) {
     return load.node == node && load.direction == direction && load.movement;
   });

@@ -37,8 +37,11 @@ class DeckStage {
   /// Adds a force (direction 0-2) or a moment (3-5).
   void load(int node, int direction, double value);
   void load(int node, const Eigen::Vector3d& force, const Eigen::Vector3d& moment = Eigen::Vector3d::Zero());
-  /// Sets the movement of a support, in place of an earlier one. @throws InputError for a rotation that is not 0
-  void move(const DeckPlace& at, int node, int direction, double value);
+  /// Sets the movement of a support, in place of an earlier one. @throws InputError for a rotation, or a movement along an axis
+  /// that is skew to the global ones, that is not 0
+  /// @param axes  the node's own (rows)
+  void move(const DeckPlace& at, int node, int direction, double value,
+            const Eigen::Matrix3d& axes = Eigen::Matrix3d::Identity());
   /// Adds an acceleration of everything that has mass: the vector along which things fall.
   void accelerate(const Eigen::Vector3d& acceleration);
   /// The same of one element alone, as forces of its nodes.

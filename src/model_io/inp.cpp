@@ -29,9 +29,10 @@ const std::vector<std::map<std::string, Reader>>& passes() {
        {"DENSITY", read_inp_density},
        {"EXPANSION", read_inp_expansion},
        {"ORIENTATION", read_inp_orientation}},
-      {{"NSET", read_inp_set}, {"ELSET", read_inp_set}, {"EQUATION", read_inp_equation}},
-      {{"SURFACE", read_inp_surface}},
-      {{"BEAM SECTION", assign_inp_section},
+      {{"NSET", read_inp_set}, {"ELSET", read_inp_set}},
+      {{"SURFACE", read_inp_surface}, {"TRANSFORM", read_inp_transform}},
+      {{"EQUATION", read_inp_equation},
+       {"BEAM SECTION", assign_inp_section},
        {"BEAM GENERAL SECTION", assign_inp_section},
        {"SHELL SECTION", assign_inp_section},
        {"SHELL GENERAL SECTION", assign_inp_section},
@@ -51,17 +52,17 @@ const std::vector<std::map<std::string, Reader>>& passes() {
 
 /// Say nothing about the structure: headings, output requests, the bounds of parts and steps.
 const std::vector<std::string>& silent_cards() {
-  static const std::vector<std::string> cards = {"HEADING",        "PREPRINT",      "RESTART",      "OUTPUT",     "NODE OUTPUT",
-                                                 "ELEMENT OUTPUT", "NODE PRINT",    "NODE FILE",    "EL PRINT",   "EL FILE",
-                                                 "CONTACT OUTPUT", "ENERGY OUTPUT", "PART",         "END PART",   "ASSEMBLY",
-                                                 "END ASSEMBLY",   "INSTANCE",      "END INSTANCE", "STEP",       "END STEP",
-                                                 "STATIC",         "FREQUENCY",     "FILE FORMAT",  "NORMAL MODE"};
+  static const std::vector<std::string> cards = {
+      "HEADING",   "PREPRINT",     "RESTART",     "OUTPUT",         "NODE OUTPUT",   "ELEMENT OUTPUT", "NODE PRINT",
+      "NODE FILE", "EL PRINT",     "EL FILE",     "CONTACT OUTPUT", "ENERGY OUTPUT", "PART",           "END PART",
+      "ASSEMBLY",  "END ASSEMBLY", "INSTANCE",    "END INSTANCE",   "STEP",          "END STEP",       "STATIC",
+      "AMPLITUDE", "FREQUENCY",    "FILE FORMAT", "NORMAL MODE"};
   return cards;
 }
 
 /// Data of other physics: no part of the stiffness and mass of a model, but worth a word.
 const std::vector<std::string>& noted_cards() {
-  static const std::vector<std::string> cards = {"AMPLITUDE", "DAMPING", "CONDUCTIVITY", "SPECIFIC HEAT", "PHYSICAL CONSTANTS"};
+  static const std::vector<std::string> cards = {"DAMPING", "CONDUCTIVITY", "SPECIFIC HEAT", "PHYSICAL CONSTANTS"};
   return cards;
 }
 
@@ -118,6 +119,8 @@ void attach_supports(InpParts& parts, const InpPlan& plan) {
     parts.scope = reading.scope;
     attach_inp_boundary(parts, *reading.card);
   }
+  for (const auto& [id, support] : parts.held_own)
+    parts.hold_along(support.at, support.name, parts.node_position.at(id), parts.node_axes.at(id), support.fixed);
 }
 
 /// Ties, when sections, links and equations are known.

@@ -45,6 +45,15 @@ double not_negative(const InpLine& line, std::size_t i) {
   return value;
 }
 
+/// Axes of the nodes of a spring without *ORIENTATION.
+InpOrientation axes_of_nodes(const InpParts& parts, const DeckPlace& at, const InpElement& element) {
+  const InpOrientation axes = parts.axes_of(at, element.nodes.front());
+  if (!axes.isApprox(parts.axes_of(at, element.nodes.back()), 1e-9))
+    at.fail(fmt::format("element {} joins nodes whose axes *TRANSFORM turns differently", element.id),
+            "give the spring an ORIENTATION");
+  return axes;
+}
+
 /// A spring or dashpot of an element along one of the axes.
 void add_spring(InpParts& parts, const InpCard& card, const InpElement& element, const std::string& name, int dof,
                 const InpOrientation& axes, double value, bool dashpot) {
@@ -90,7 +99,7 @@ void attach_inp_spring(InpParts& parts, const InpCard& card) {
       along.row(0) = line.normalized();
     } else {
       dof = lines[0]->component(0);
-      if (!card.has("ORIENTATION")) parts.refuse_turned(*lines[0]);
+      if (!card.has("ORIENTATION")) along = axes_of_nodes(parts, *lines[0], *element);
       if (element->nodes.size() > 1 && lines[0]->fields.size() > 1 && lines[0]->component(1) != dof)
         lines[0]->fail("joins two different degrees of freedom, which is not supported", "give the same one for both nodes");
     }
@@ -101,7 +110,6 @@ void attach_inp_spring(InpParts& parts, const InpCard& card) {
 void attach_inp_joint(InpParts& parts, const InpCard& card) {
   card.allow({"ELSET", "ORIENTATION"});
   const InpOrientation axes = inp_axes_of(parts, card);
-  if (!card.has("ORIENTATION")) parts.refuse_turned(card);
   const std::vector<InpElement*> elements = parts.elements_of(card, InpKind::joint);
   const InpCard* below = parts.card_after(card);
   if (below == nullptr || !names_no_set(*below))
@@ -117,7 +125,7 @@ void attach_inp_joint(InpParts& parts, const InpCard& card) {
     const double value = not_negative(below->data[1], 0);
     for (const InpElement* element : elements)
       add_spring(parts, card, *element, fmt::format("{}_{}_{}", parts.group_of(card, *element), element->id, dof + 1), dof,
-                 axes, value, below->keyword == "DASHPOT");
+                 card.has("ORIENTATION") ? axes : axes_of_nodes(parts, card, *element), value, below->keyword == "DASHPOT");
   }
 }
 
@@ -149,7 +157,7 @@ void attach_inp_mass(InpParts& parts, const InpCard& card) {
 }
 
 void attach_inp_boundary(InpParts& parts, const InpCard& card) {
-  card.allow({"OP", "TYPE"});
+  card.allow({"OP", "TYPE", "AMPLITUDE"});
   if (upper_case(card.get("TYPE", "DISPLACEMENT")) != "DISPLACEMENT")
     card.fail("only TYPE=DISPLACEMENT is supported", "fix displacements and rotations");
   for (const InpLine& line : card.data) {
@@ -166,13 +174,20 @@ void attach_inp_boundary(InpParts& parts, const InpCard& card) {
                   "supports hold at zero; a static step with NLGEOM or before *STEP, PERTURBATION may move them");
     }
     const bool whole = fixed[0] == fixed[1] && fixed[0] == fixed[2] && fixed[3] == fixed[4] && fixed[3] == fixed[5];
-    if (!whole) parts.refuse_turned(line);
     const bool set = !parts.is_number(line.fields[0]);
     for (const long id : parts.nodes_of(line, 0)) {
+      const std::string name = set ? line.fields[0] : fmt::format("node_{}", id);
+      (void)parts.axes_of(line, id, whole);
+      if (parts.node_axes.contains(id)) {
+        InpParts::OwnSupport& own = parts.held_own.emplace(id, InpParts::OwnSupport{line, name}).first->second;
+        for (std::size_t d = 0; d < 6; ++d) own.fixed[d] = own.fixed[d] || fixed[d];
+        (void)parts.node(line, id);
+        continue;
+      }
       const auto [node, first] = parts.moved_by(id);
       Directions of_node{};
       for (std::size_t d = 0; d < (first == 0 ? 6U : 3U); ++d) of_node[fe::slot(first) + d] = fixed[d];
-      parts.hold(set ? line.fields[0] : fmt::format("node_{}", id), parts.node(line, node), of_node);
+      parts.hold(name, parts.node(line, node), of_node);
     }
   }
 }

@@ -29,7 +29,8 @@ const std::map<std::string, Type>& types() {
       {"JOINTC", {InpKind::joint, 2}},     {"SPRINGA", {InpKind::spring, 2}},   {"SPRING1", {InpKind::spring, 1}},
       {"SPRING2", {InpKind::spring, 2}},   {"DASHPOTA", {InpKind::dashpot, 2}}, {"DASHPOT1", {InpKind::dashpot, 1}},
       {"DASHPOT2", {InpKind::dashpot, 2}}, {"MASS", {InpKind::mass, 1}},        {"ROTARYI", {InpKind::mass, 1}},
-      {"PIPE31", {InpKind::beam, 2}},      {"PIPE32", {InpKind::beam, 3}}};
+      {"B31OS", {InpKind::beam, 2}},       {"B31OSH", {InpKind::beam, 2}},      {"B32OS", {InpKind::beam, 3}},
+      {"B32OSH", {InpKind::beam, 3}},      {"PIPE31", {InpKind::beam, 2}},      {"PIPE32", {InpKind::beam, 3}}};
   return known;
 }
 

@@ -3,7 +3,7 @@
 #include <array>
 
 #include "fe/model.hpp"
-#include "model_io/inp_profiles.hpp"
+#include "model_io/profiles.hpp"
 
 /// What a beam has to be called in an .inp file so that CalculiX's solid in its place has the beam's stiffness.
 ///

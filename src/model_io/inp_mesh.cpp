@@ -244,6 +244,12 @@ void InpParts::refuse_turned(const DeckPlace& at) const {
             "write the card at the level of the assembly, or give a spring an ORIENTATION");
 }
 
+Eigen::Matrix3d InpParts::axes_of(const DeckPlace& at, long id, bool whole) const {
+  const auto found = node_axes.find(id);
+  if (found == node_axes.end() && !whole) refuse_turned(at);
+  return found == node_axes.end() ? Eigen::Matrix3d(Eigen::Matrix3d::Identity()) : found->second;
+}
+
 const InpSet& InpParts::group_set(const InpCard& card, const InpElement& element) const {
   const bool by_element = element.card->has("ELSET");
   const InpCard& by = by_element ? *element.card : card;

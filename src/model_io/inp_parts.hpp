@@ -67,6 +67,13 @@ struct InpParts : DeckModel {
   std::vector<DeckEquation> equations;                 ///< the first term is the dependent one
   std::map<int, const InpCard*> uneven_expansion;      ///< of materials where it is not one number
   std::set<const InpCard*> of_stage;                   ///< cards of the static stage, which may move supports
+  std::map<long, Eigen::Matrix3d> node_axes;           ///< of *TRANSFORM, rows, by node
+  struct OwnSupport {
+    DeckPlace at;
+    std::string name;
+    Directions fixed{};
+  };
+  std::map<long, OwnSupport> held_own;  ///< supports along such axes, by node
   /// Of a *RIGID BODY with ROT NODE: by that node, whose displacements are the body's rotations, the reference node.
   std::map<long, std::pair<long, const InpCard*>> turned_by;
 
@@ -116,6 +123,9 @@ struct InpParts : DeckModel {
   [[nodiscard]] const InpCard* card_after(const InpCard& card) const;
   /// Elements of the set that ELSET= of the card names, marked as used. @throws InputError for one of another kind
   [[nodiscard]] std::vector<InpElement*> elements_of(const InpCard& card, InpKind kind, InpKind or_kind = InpKind::none);
+  /// Axes along which degrees of freedom of a node count: those of *TRANSFORM, or the global ones.
+  /// @throws InputError where an instance is turned and no *TRANSFORM speaks, but for directions that are `whole`
+  [[nodiscard]] Eigen::Matrix3d axes_of(const DeckPlace& at, long id, bool whole = false) const;
   /// Whether the card at hand stands in an instance that is rotated.
   [[nodiscard]] bool is_turned() const { return scopes[static_cast<std::size_t>(scope)].turned(); }
   /// @throws InputError where it does: directions given by number are not sure there

@@ -6,11 +6,13 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numbers>
+#include <optional>
 
 #include "core/error.hpp"
 #include "model_io/inp_attachments.hpp"
 #include "model_io/inp_expanded_beam.hpp"
-#include "model_io/inp_profiles.hpp"
+#include "model_io/profiles.hpp"
 
 namespace twindeck::model_io {
 namespace {
@@ -65,18 +67,98 @@ fe::Element to_element(InpParts& parts, const InpCard& card, const InpElement& e
   return e;
 }
 
-/// Beams whose local y is n1 of the second data line; our local z is n2 = t × n1.
-void add_beams(InpParts& parts, const InpCard& card, int material, int section) {
+/// Beams whose local y is n1 of the data line below those of the section; our local z is n2 = t × n1.
+/// @param centroid  of the section in its y and z, from the node
+void add_beams(InpParts& parts, const InpCard& card, int material, int section, std::size_t direction_line = 1,
+               const Eigen::Vector2d& centroid = Eigen::Vector2d::Zero()) {
   Eigen::Vector3d n1(0.0, 0.0, -1.0);
-  if (card.data.size() > 1) n1 = card.data[1].vector(0);
+  if (card.data.size() > direction_line) n1 = card.data[direction_line].vector(0);
   if (parts.is_turned()) n1 = (parts.scopes[static_cast<std::size_t>(parts.scope)].rotation * n1).eval();
-  for (const InpElement* element : parts.elements_of(card, InpKind::beam))
+  for (const InpElement* element : parts.elements_of(card, InpKind::beam)) {
+    if (element->type.find("OS") != std::string::npos)
+      parts.note_once(
+          "B31OS and B32OS are read as B31 and B32: the warping of their open sections, which stiffens them in "
+          "torsion, is left out");
     parts.add_beam(to_element(parts, card, *element, fe::ElementType::beam, material, section),
                    [&](fe::Element& piece, const Eigen::Vector3d& axis) {
                      piece.orientation =
                          DeckModel::local_z(card, fmt::format("element {}", element->id), axis, n1,
                                             "give n1 across the beam in the second data line (default 0, 0, -1)");
+                     DeckModel::put_beside(piece, axis, centroid);
                    });
+  }
+}
+
+/// A profile as it is drawn, where the node lies in the drawing (the centroid without one), and how many data lines it takes.
+struct DrawnProfile {
+  Shape shape;
+  std::optional<Eigen::Vector2d> node = {};
+  std::size_t lines = 1;
+};
+
+/// ARBITRARY: number of segments, two points and a thickness, then a point and a thickness a line; closed where the last point
+/// is the first.
+DrawnProfile draw_segments(const InpCard& card) {
+  DrawnProfile drawn{{}, Eigen::Vector2d::Zero(), static_cast<std::size_t>(std::clamp(card.data[0].integer(0), 1L, 1000L))};
+  const auto point = [](const InpLine& line, std::size_t i) { return Eigen::Vector2d(line.number(i), line.number(i + 1)); };
+  const Eigen::Vector2d first = point(card.data[0], 1);
+  Eigen::Vector2d from = first;
+  double twice_area = 0.0, around = 0.0;
+  for (std::size_t i = 0; i < drawn.lines; ++i) {
+    const InpLine& line = card.line_of(i, "a point and a thickness of a segment");
+    const Eigen::Vector2d to = point(line, i == 0 ? 3 : 0);
+    const double length = (to - from).norm(), thickness = above_zero(line, i == 0 ? 5 : 2);
+    if (!(length > 0.0)) line.fail("the segment has no length", "give its other end");
+    drawn.shape.walls.push_back({from, to, thickness});
+    twice_area += from[0] * to[1] - from[1] * to[0];
+    around += length / thickness;
+    from = to;
+  }
+  const bool closed = drawn.lines > 2 && (from - first).norm() < 1e-9 * around * drawn.shape.walls[0].thickness;
+  if (closed) drawn.shape.closed_torsion = bredt(std::abs(twice_area) / 2.0, around);
+  return drawn;
+}
+
+/// A regular hexagon's tube by the radius of its corners and its wall.
+Shape hexagonal_tube(double radius, double wall) {
+  Shape shape;
+  const double middle = radius - wall / std::sqrt(3.0), area = 1.5 * std::sqrt(3.0) * middle * middle;
+  shape.fits = middle > 0.0 && wall > 0.0;
+  const auto corner = [&](int i) {
+    return Eigen::Vector2d(middle * std::cos(i * std::numbers::pi / 3.0), middle * std::sin(i * std::numbers::pi / 3.0));
+  };
+  for (int i = 0; i < 6; ++i) shape.walls.push_back({corner(i), corner(i + 1), wall});
+  shape.closed_torsion = bredt(area, 6.0 * middle / wall);
+  return shape;
+}
+
+DrawnProfile draw_profile(const InpCard& card, std::string profile) {
+  const InpLine& line = card.line_of(0, "the dimensions");
+  const auto d = [&](std::size_t i) { return line.number(i); };
+  if (profile == "THICK PIPE") profile = "PIPE";
+  if (profile.starts_with("RECT")) return {rectangles({{0.0, 0.0, d(0), d(1)}})};
+  if (profile.starts_with("CIRC")) {
+    // Abaqus gives the radius; CalculiX both diameters, of an ellipse if they differ.
+    if (line.fields.size() > 1 && d(1) != d(0)) line.fail("an ellipse is not supported", "give a circle");
+    return {circle(line.fields.size() > 1 ? d(0) / 2.0 : d(0))};
+  }
+  if (profile == "PIPE") return {circle(d(0), d(0) - d(1))};
+  if (profile == "BOX") return {box(d(0), d(1), {d(2), d(3), d(4), d(5)}), Eigen::Vector2d(d(0), d(1)) / 2.0};
+  if (profile == "I") return {i_shape(d(1), {d(2), d(3)}, {d(4), d(5)}, d(6)), Eigen::Vector2d(0.0, d(0))};
+  if (profile == "L") return {angle(d(0), d(1), d(2), d(3)), Eigen::Vector2d(d(3), d(2)) / 2.0};
+  if (profile == "HEX") return {hexagonal_tube(d(0), d(1))};
+  if (profile == "ARBITRARY") return draw_segments(card);
+  if (profile != "TRAPEZOID") {
+    const std::vector<std::string> known = {"ARBITRARY", "BOX",  "CIRC", "HEX",        "I",
+                                            "L",         "PIPE", "RECT", "THICK PIPE", "TRAPEZOID"};
+    card.fail(fmt::format("unsupported SECTION={}{}", profile, did_you_mean(profile, known)),
+              fmt::format("supported are {}, and GENERAL on *BEAM GENERAL SECTION", fmt::join(known, ", ")));
+  }
+  DrawnProfile drawn;  // lower width, height, upper width, the node above the lower side
+  drawn.shape.outline = {{-d(0) / 2.0, 0.0}, {d(0) / 2.0, 0.0}, {d(2) / 2.0, d(1)}, {-d(2) / 2.0, d(1)}};
+  drawn.shape.fits = d(0) > 0.0 && d(1) > 0.0 && d(2) > 0.0;
+  drawn.node = Eigen::Vector2d(0.0, d(3));
+  return drawn;
 }
 
 /// The two shear moduli of an orthotropic beam hold in its own axes, so that *ORIENTATION has to name them.
@@ -104,33 +186,25 @@ bool is_euler_beam(InpParts& parts, const InpCard& card) {
 
 void assign_beam(InpParts& parts, const InpCard& card) {
   card.allow({"ELSET", "MATERIAL", "SECTION", "POISSON", "TEMPERATURE", "ORIENTATION"});
-  std::string profile = upper_case(card.required("SECTION"));
-  if (profile == "RECTANGULAR" || profile == "CIRCULAR") profile.resize(4);  // "RECT", "CIRC"
-  if (profile == "THICK PIPE") profile = "PIPE";
-  const std::size_t size = profile_size(profile);
-  if (size == 0)
-    card.fail(fmt::format("unsupported SECTION={}{}", profile, did_you_mean(profile, profile_names())),
-              "supported are BOX, CIRC, I, PIPE, RECT, and GENERAL on *BEAM GENERAL SECTION");
+  const std::string profile = upper_case(card.required("SECTION"));
+  const DrawnProfile drawn = draw_profile(card, profile);
   const int material = any_material_of(parts, card);
   const auto second = parts.second_shear_moduli.find(material);
-  const InpLine& line = card.line_of(0, "the dimensions");
-  std::vector<double> values;
-  for (std::size_t i = 0; i < size; ++i) values.push_back(line.number(i));
-  if (profile == "CIRC" && line.fields.size() > 1) {
-    // Abaqus gives the radius; CalculiX both diameters, of an ellipse if they differ.
-    if (line.number(1) != values[0]) line.fail("an ellipse is not supported", "give a circle");
-    values[0] /= 2.0;
-  }
-  std::string problem;
   const fe::Material& m = parts.model.materials[fe::slot(material)];
-  fe::Section section = profile_section(profile, values, m.poisson_ratio, problem);
-  if (!problem.empty())
-    line.fail(problem, fmt::format("check the dimensions of the {}, or give another shape by *BEAM GENERAL SECTION", profile));
+  const ProfileSection of_profile = profile_section(drawn.shape, m.poisson_ratio);
+  fe::Section section = of_profile.section;
+  if (!of_profile.possible)
+    card.data[0].fail("a dimension is not above 0, or the dimensions do not fit together",
+                      fmt::format("check the dimensions of the {}, or give another shape by *BEAM GENERAL SECTION", profile));
+  if (of_profile.beside) parts.note_once(note_beside(card.get("ELSET")));
+  Eigen::Vector2d centroid = of_profile.centroid - drawn.node.value_or(of_profile.centroid);
+  constexpr double rounding = 1e-9;  // [-] of the section's size
+  if (centroid.norm() < rounding * std::sqrt(section.area_m2)) centroid.setZero();
   if (is_euler_beam(parts, card)) section.shear_area_y_m2 = section.shear_area_z_m2 = 0.0;
   const bool orthotropic = second != parts.second_shear_moduli.end();
   if (orthotropic) section = contracted_beam(section, m.shear_modulus_Pa, second->second);
   const std::size_t before = parts.model.elements.size();
-  add_beams(parts, card, material, section_of_set(parts, card, section));
+  add_beams(parts, card, material, section_of_set(parts, card, section), drawn.lines, centroid);
   for (std::size_t i = before; orthotropic && i < parts.model.elements.size(); ++i)
     check_orientation(parts, card, parts.model.elements[i]);
 }
@@ -250,6 +324,18 @@ void read_beam_constants(InpParts& parts, const InpCard& card, fe::Material& mat
   parts.second_shear_moduli[static_cast<int>(parts.model.materials.size()) - 1] = constants[7];
 }
 
+/// x' along a, b in the x'-y' plane.
+InpOrientation axes_through(const InpLine& line, const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
+  const Eigen::Vector3d z = a.cross(b);
+  if (z.norm() < 1e-9 * a.norm() * b.norm() || a.norm() == 0.0)
+    line.fail("points a and b lie in one direction", "b gives the x'-y' plane");
+  InpOrientation axes;
+  axes.row(0) = a.normalized();
+  axes.row(2) = z.normalized();
+  axes.row(1) = axes.row(2).cross(axes.row(0));
+  return axes;
+}
+
 }  // namespace
 
 void assign_inp_section(InpParts& parts, const InpCard& card) {
@@ -323,18 +409,32 @@ void read_inp_orientation(InpParts& parts, const InpCard& card) {
     a = card.data[0].vector(0);
     b = card.data[0].vector(3);
   }
-  const Eigen::Vector3d z = a.cross(b);
-  if (z.norm() < 1e-9 * a.norm() * b.norm() || a.norm() == 0.0) {
-    card.data[0].fail("points a and b lie in one direction", "b gives the x'-y' plane");
-  }
-  InpOrientation axes;
-  axes.row(0) = a.normalized();
-  axes.row(2) = z.normalized();
-  axes.row(1) = axes.row(2).cross(axes.row(0));
+  InpOrientation axes = axes_through(card.data[0], a, b);
   const InpScope& scope = parts.scopes[static_cast<std::size_t>(parts.scope)];
   // Nodes are turned with their instance already.
   if (scope.turned() && definition == "COORDINATES") axes = (axes * scope.rotation.transpose()).eval();
   parts.orientations[parts.key_here(card.required("NAME"))] = axes;
+}
+
+void read_inp_transform(InpParts& parts, const InpCard& card) {
+  card.allow({"NSET", "TYPE"});
+  const std::string type = upper_case(card.get("TYPE", "R"));
+  if (type != "R" && type != "C" && type != "S") card.fail(fmt::format("unsupported TYPE={}", type), "R, C and S are read");
+  const InpLine& line = card.line_of(0, "the points a and b");
+  const InpScope& scope = parts.scopes[static_cast<std::size_t>(parts.scope)];
+  const Eigen::Vector3d a = scope.rotation * line.vector(0), b = scope.rotation * line.vector(3);
+  for (const long id : parts.set(parts.node_sets, card, card.required("NSET")).members) {
+    if (type == "R") {
+      parts.node_axes[id] = axes_through(line, a, b);
+      continue;
+    }
+    const Eigen::Vector3d axis = (b - a).normalized(), arm = parts.place(parts.node(card, id)) - a - scope.shift_m;
+    const Eigen::Vector3d around = axis.cross(arm), radial = type == "S" ? arm : Eigen::Vector3d(around.cross(axis));
+    if (!(around.norm() > 1e-9 * arm.norm()))
+      line.fail(fmt::format("node {} lies on the axis, where no direction is radial", parts.node_name(id)),
+                "take it out of the set");
+    parts.node_axes[id] = axes_through(line, radial, around);
+  }
 }
 
 }  // namespace twindeck::model_io

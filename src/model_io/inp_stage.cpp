@@ -32,18 +32,31 @@ struct LoadLine {
   int scope = 0;
   const InpCard* card = nullptr;
   const InpLine* line = nullptr;
+  double step_time = 0.0;  ///< period of its step
 };
 
-/// Lines in force at the end of the stage.
-std::vector<LoadLine> lines_in_force(const InpStage& stage) {
+/// Lines in force at the end of the stage, and the whole time of its steps.
+struct LoadsInForce {
   std::vector<LoadLine> lines;
+  double time = 0.0;
+};
+
+LoadsInForce lines_in_force(const InpStage& stage) {
+  LoadsInForce in_force;
+  std::vector<LoadLine>& lines = in_force.lines;
   std::set<std::string> renewed;
+  std::map<int, double> periods;
   int step = 0;
   for (const InpReading& reading : stage.cards) {
     const InpCard& card = *reading.card;
     if (card.keyword == "STEP") {
       ++step;
       renewed.clear();
+      continue;
+    }
+    if (card.keyword == "STATIC") {
+      periods[step] = card.data.empty() ? 1.0 : card.data.front().number_or(1, 1.0);
+      in_force.time += periods[step];
       continue;
     }
     if (upper_case(card.get("OP")) == "NEW" && renewed.insert(card.keyword).second)
@@ -55,7 +68,38 @@ std::vector<LoadLine> lines_in_force(const InpStage& stage) {
       lines.push_back({key, step, reading.scope, &card, &line});
     }
   }
-  return lines;
+  for (LoadLine& line : lines) line.step_time = periods[line.step];
+  return in_force;
+}
+
+/// Factor of the *AMPLITUDE that a load names, where its static step ends (TIME=TOTAL TIME: the last one).
+/// @throws InputError  for one that is not defined, or no table of factors
+double amplitude_at_end(const InpFile& file, const LoadLine& load, double total_time) {
+  if (!load.card->has("AMPLITUDE")) return 1.0;
+  const std::string name = load.card->get("AMPLITUDE");
+  const auto found = std::find_if(file.cards().begin(), file.cards().end(), [&](const InpCard& card) {
+    return card.keyword == "AMPLITUDE" && upper_case(card.get("NAME")) == upper_case(name);
+  });
+  if (found == file.cards().end())
+    load.card->fail(fmt::format("amplitude '{}' is not defined", name), "define it by *AMPLITUDE");
+  const std::string definition = upper_case(found->get("DEFINITION", "TABULAR")),
+                    value = upper_case(found->get("VALUE", "RELATIVE"));
+  if ((definition != "TABULAR" && definition != "SMOOTH STEP") || value != "RELATIVE")
+    found->fail(fmt::format("gives '{}' as DEFINITION={}, VALUE={}, which scales the loads of modes and is not read", name,
+                            definition, value),
+                "give DEFINITION=TABULAR with VALUE=RELATIVE, or the load its size at the end of the step");
+  std::vector<double> numbers;
+  for (const InpLine& line : found->data)
+    for (std::size_t i = 0; i < line.size(); ++i) numbers.push_back(line.number(i));
+  if (numbers.empty() || numbers.size() % 2 == 1)
+    found->fail("has no pairs of time and factor", "write time, factor, time, factor");
+  const double time = upper_case(found->get("TIME", "STEP TIME")).starts_with("TOTAL") ? total_time : load.step_time;
+  std::size_t after = 0;
+  while (after < numbers.size() && numbers[after] < time) after += 2;
+  if (after == 0 || after == numbers.size()) return after == 0 ? numbers[1] : numbers.back();
+  const double share = (time - numbers[after - 2]) / (numbers[after] - numbers[after - 2]),
+               grown = definition == "TABULAR" ? share : share * share * share * (10.0 + share * (6.0 * share - 15.0));
+  return numbers[after - 1] + grown * (numbers[after + 1] - numbers[after - 1]);
 }
 
 constexpr const char* write_nodal_forces =
@@ -66,17 +110,18 @@ class InpStageReader {
  public:
   InpStageReader(InpParts& parts, bool large) : parts_(parts), stage_(parts, large, write_nodal_forces) {}
 
-  void read(const LoadLine& load) {
+  /// @param factor  of its amplitude
+  void read(const LoadLine& load, double factor) {
     parts_.scope = load.scope;
+    factor_ = factor;
     const InpLine& line = *load.line;
     const std::string& keyword = load.card->keyword;
-    load.card->allow(keyword == "DSLOAD"     ? std::vector<std::string>{"OP", "FOLLOWER", "CONSTANT RESULTANT"}
-                     : keyword == "BOUNDARY" ? std::vector<std::string>{"OP", "TYPE"}
-                                             : std::vector<std::string>{"OP"});
+    load.card->allow(keyword == "DSLOAD" ? std::vector<std::string>{"OP", "AMPLITUDE", "FOLLOWER", "CONSTANT RESULTANT"}
+                                         : std::vector<std::string>{"OP", "AMPLITUDE", keyword == "BOUNDARY" ? "TYPE" : "OP"});
     if (keyword == "CLOAD") return read_forces(line);
     if (keyword == "DLOAD") return read_distributed(line);
     if (keyword == "DSLOAD") return read_surface_load(line);
-    if (keyword == "TEMPERATURE") return read_temperature(line, now_);
+    if (keyword == "TEMPERATURE") return read_temperature(line, now_, factor_);
     if (keyword == "BOUNDARY") read_movement(line);
   }
 
@@ -85,7 +130,7 @@ class InpStageReader {
     reading.card->allow({"TYPE"});
     for (const InpLine& line : reading.card->data) {
       if (upper_case(reading.card->get("TYPE")) == "TEMPERATURE")
-        read_temperature(line, before_);
+        read_temperature(line, before_, 1.0);
       else
         read_stress(line);
     }
@@ -105,13 +150,14 @@ class InpStageReader {
 
  private:
   void read_forces(const InpLine& line) {
-    parts_.refuse_turned(line);
     const int dof = line.component(1);
-    const double size = line.number_or(2, 0.0);
+    const double size = factor_ * line.number_or(2, 0.0);
     for (const long id : parts_.nodes_of(line, 0)) {
       const auto [node, first] = parts_.moved_by(id);
       refuse_beyond_rotations(line, first, dof);
-      stage_.load(stage_.node(line, node), first + dof, size);
+      const Eigen::Vector3d along = size * parts_.axes_of(line, id).row(dof % 3).transpose();
+      const bool turns = first + dof > 2;
+      stage_.load(stage_.node(line, node), turns ? Eigen::Vector3d::Zero() : along, turns ? along : Eigen::Vector3d::Zero());
     }
   }
 
@@ -124,18 +170,19 @@ class InpStageReader {
 
   void read_movement(const InpLine& line) {
     if (line.fields.size() < 4) return;
-    const double size = line.number_or(3, 0.0);
+    const double size = factor_ * line.number_or(3, 0.0);
     const int first = line.component(1), last = line.blank(2) ? first : line.component(2);
-    if (size != 0.0) parts_.refuse_turned(line);
     for (const long id : parts_.nodes_of(line, 0)) {
       const auto [node, from] = parts_.moved_by(id);
       if (size != 0.0) refuse_beyond_rotations(line, from, last);
-      for (int dof = first; dof <= last && from + dof < 6; ++dof) stage_.move(line, stage_.node(line, node), from + dof, size);
+      const Eigen::Matrix3d axes = parts_.axes_of(line, id, size == 0.0);
+      for (int dof = first; dof <= last && from + dof < 6; ++dof)
+        stage_.move(line, stage_.node(line, node), from + dof, size, axes);
     }
   }
 
-  void read_temperature(const InpLine& line, std::map<long, double>& of) {
-    const double kelvin = line.number(1);
+  void read_temperature(const InpLine& line, std::map<long, double>& of, double factor) {
+    const double kelvin = factor * line.number(1);
     for (const long id : parts_.nodes_of(line, 0)) of[id] = kelvin;
   }
 
@@ -154,7 +201,7 @@ class InpStageReader {
   void read_distributed(const InpLine& line) {
     const std::string label = line.word(1);
     if (label == "GRAV") return read_gravity(line);
-    const double size = line.number(2);
+    const double size = factor_ * line.number(2);
     for (const long id : element_ids(line)) {
       if (!parts_.elements.contains(id)) line.fail(fmt::format("element {} is not defined by any *ELEMENT", id), "define it");
       if (label == "PX" || label == "PY" || label == "PZ") {
@@ -171,7 +218,7 @@ class InpStageReader {
   }
 
   void read_gravity(const InpLine& line) {
-    const double size = line.number(2);
+    const double size = factor_ * line.number(2);
     const Eigen::Vector3d direction = line.vector(3);
     if (!(direction.norm() > 0.0)) line.fail("GRAV has no direction", "give its three components");
     const Eigen::Vector3d acceleration = size * direction.normalized();
@@ -193,7 +240,7 @@ class InpStageReader {
   void read_surface_load(const InpLine& line) {
     const InpSurface& surface = parts_.surface(line, line.fields[0]);
     const std::string label = line.word(1);
-    const double size = line.number(2);
+    const double size = factor_ * line.number(2);
     const Eigen::Vector3d direction = line.vector(3);
     const bool traction = label == "TRVEC";
     if ((label != "P" && !traction) || surface.facets.empty() || surface.facets.front().nodes.size() < 3 ||
@@ -212,6 +259,7 @@ class InpStageReader {
 
   InpParts& parts_;
   DeckStage stage_;
+  double factor_ = 1.0;
   std::map<long, double> before_, now_;  ///< temperatures of nodes
 };
 
@@ -253,7 +301,7 @@ InpStage find_inp_stage(const InpPlan& plan) {
     const bool load = load_keywords().contains(card.keyword) || is_nonzero_boundary(card);
     if (opened == nullptr) {
       leave({reading});
-    } else if (load || card.keyword == "STEP" || card.keyword == "BOUNDARY") {
+    } else if (load || card.keyword == "STEP" || card.keyword == "BOUNDARY" || card.keyword == "STATIC") {
       step.push_back(reading);
     }
   }
@@ -274,7 +322,7 @@ InpStage find_inp_stage(const InpPlan& plan) {
 
 void read_inp_stage(InpParts& parts, const InpStage& stage) {
   if (!stage.asked) return;
-  const std::vector<LoadLine> lines = lines_in_force(stage);
+  const auto [lines, time] = lines_in_force(stage);
   const bool warmed =
       std::any_of(lines.begin(), lines.end(), [](const LoadLine& l) { return l.card->keyword == "TEMPERATURE"; });
   if (warmed && !parts.uneven_expansion.empty())
@@ -282,7 +330,7 @@ void read_inp_stage(InpParts& parts, const InpStage& stage) {
                                                  "give one coefficient of expansion");
   InpStageReader reader(parts, stage.large);
   for (const InpReading& reading : stage.initial) reader.read_initial(reading);
-  for (const LoadLine& line : lines) reader.read(line);
+  for (const LoadLine& line : lines) reader.read(line, amplitude_at_end(parts.file, line, time));
   reader.close(warmed || !stage.initial.empty());
 }
 

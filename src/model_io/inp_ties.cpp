@@ -187,9 +187,24 @@ void follow(InpParts& parts, const DeckPlace& at, int master, long slave_id, con
   const int slave = parts.node(at, slave_id);
   if (slave == master) return;
   if (parts.is_whole(tied, slave)) return parts.add_link(master, slave);
-  parts.refuse_turned(at);
+  if (!parts.axes_of(at, slave_id).isIdentity(1e-9))
+    at.fail(fmt::format("ties node {} along some of the axes of its *TRANSFORM, which is not read", parts.node_name(slave_id)),
+            "tie all its degrees of freedom, or take it out of *TRANSFORM");
   parts.tie_at_arm(
       at, [&](int) { return parts.numbered("coupling"); }, master, slave, tied);
+}
+
+/// A term of an equation, along the axes of its node: one for each global direction, the largest first.
+void add_terms(const InpParts& parts, const InpLine& line, std::size_t field, std::vector<fe::Constraint::Term>& terms) {
+  constexpr double nothing = 1e-12;  // [-] of a direction: rounding
+  const long id = parts.node_id(line, field);
+  const int node = parts.node(line, id), direction = line.component(field + 1);
+  const Eigen::RowVector3d along = line.number(field + 2) * parts.axes_of(line, id).row(direction % 3);
+  std::array<int, 3> order = {0, 1, 2};
+  std::stable_sort(order.begin(), order.end(), [&](int a, int b) { return std::abs(along[a]) > std::abs(along[b]); });
+  for (const int d : order)
+    if (d == order[0] || std::abs(along[d]) > nothing * along.norm())
+      terms.push_back({node, direction - direction % 3 + d, along[d]});
 }
 
 }  // namespace
@@ -219,7 +234,6 @@ void attach_inp_tie(InpParts& parts, const InpCard& card) {
 
 void read_inp_equation(InpParts& parts, const InpCard& card) {
   card.allow({});
-  parts.refuse_turned(card);
   for (std::size_t row = 0; row < card.data.size();) {
     DeckEquation equation{card.data[row], {}};
     const long terms = card.data[row].integer(0);
@@ -228,12 +242,13 @@ void read_inp_equation(InpParts& parts, const InpCard& card) {
                        "give their number, then node, degree of freedom, coefficient of each");
     ++row;
     std::size_t field = 0;
-    while (static_cast<long>(equation.terms.size()) < terms) {
+    long count = 0;
+    while (count < terms) {
       if (row >= card.data.size())
-        equation.at.fail(fmt::format("the equation ends after {} of {} terms", equation.terms.size(), terms), "complete it");
+        equation.at.fail(fmt::format("the equation ends after {} of {} terms", count, terms), "complete it");
       const InpLine& line = card.data[row];
-      const int node = parts.node(line, parts.node_id(line, field));
-      equation.terms.push_back({node, line.component(field + 1), line.number(field + 2)});
+      add_terms(parts, line, field, equation.terms);
+      ++count;
       field += 3;
       if (field + 2 >= line.fields.size()) {
         ++row;

@@ -50,8 +50,8 @@ struct Parts : DeckModel {
     int a, b;
     double stiffness;
   };
-  std::vector<Twist> twists;                 ///< torsion of rods: it needs rotations that something else holds
-  std::map<long, std::array<bool, 6>> held;  ///< supports by grid, basic axes
+  std::vector<Twist> twists;                                ///< torsion of rods: it needs rotations that something else holds
+  std::map<long, std::pair<Directions, const Card*>> held;  ///< supports by grid, in its displacement axes
 
   // nastran_grids.cpp
   /// @throws InputError for a grid that no GRID card defines

@@ -7,7 +7,7 @@
 #include <map>
 #include <optional>
 
-#include "model_io/inp_profiles.hpp"
+#include "model_io/profiles.hpp"
 
 /// Sections of CBAR and CBEAM. Nastran's element axes are ours: plane 1 is x-y, so that I1 is our inertia_z, I2 our inertia_y,
 /// K1 belongs to shear along y, K2 along z.
@@ -49,39 +49,95 @@ void refuse_values(const Card& card, std::size_t first, std::size_t count, const
   }
 }
 
-/// A profile of PBARL and PBEAML by the reader of .inp sections; `swapped`: it has y and z exchanged.
-struct Profile {
-  std::string name;
-  std::vector<double> values;
-  bool swapped = false;
-};
+/// A hat on a plate of the width d0: height d1, top d2, thicknesses of hat and plate d3, d4.
+Shape closed_hat(const double* d) {
+  const double a = d[2] / 2.0, w = d[2] - d[3], h = d[1] - (d[3] + d[4]) / 2.0, brim = d[3] + d[4], under = d[1] - d[3];
+  Shape shape = rectangles({{-d[0] / 2.0, 0.0, d[0] / 2.0, d[4]},
+                            {-d[0] / 2.0, d[4], d[3] - a, brim},
+                            {a - d[3], d[4], d[0] / 2.0, brim},
+                            {-a, brim, d[3] - a, under},
+                            {a - d[3], brim, a, under},
+                            {-a, under, a, d[1]}});
+  shape.fits = shape.fits && d[2] > 2.0 * d[3] && d[0] >= d[2] && under > brim;
+  shape.closed_torsion = bredt(w * h, (w + 2.0 * h) / d[3] + w / d[4]);
+  return shape;
+}
 
-const std::map<std::string, std::size_t>& profile_dimensions() {
-  static const std::map<std::string, std::size_t> known = {{"ROD", 1}, {"TUBE", 2}, {"TUBE2", 2},
-                                                           {"BAR", 2}, {"BOX", 4},  {"I", 6}};
+/// Width and height, place of the middle wall, walls left, middle, right, then top and bottom of the left and right cell.
+Shape two_cells(const double* d) {
+  const double middle = d[2] - d[4] / 2.0, beyond = d[2] + d[4] / 2.0;
+  Shape shape = rectangles({{0.0, 0.0, d[3], d[1]},
+                            {middle, 0.0, beyond, d[1]},
+                            {d[0] - d[5], 0.0, d[0], d[1]},
+                            {d[3], d[1] - d[6], middle, d[1]},
+                            {d[3], 0.0, middle, d[7]},
+                            {beyond, d[1] - d[8], d[0] - d[5], d[1]},
+                            {beyond, 0.0, d[0] - d[5], d[9]}});
+  shape.fits = shape.fits && shape.walls.size() == 7 && d[6] + d[7] < d[1] && d[8] + d[9] < d[1];
+  const double w = d[2] - d[3] / 2.0, w2 = d[0] - d[2] - d[5] / 2.0, h = d[1] - (d[6] + d[7]) / 2.0,
+               h2 = d[1] - (d[8] + d[9]) / 2.0, common = (h + h2) / 2.0 / d[4];
+  shape.closed_torsion =
+      bredt(w * h, w / d[6] + w / d[7] + h / d[3] + common, w2 * h2, w2 / d[8] + w2 / d[9] + h2 / d[5] + common, common);
+  return shape;
+}
+
+Shape cross(const double* d) {
+  const double arm = (d[0] + d[1]) / 2.0;
+  return rectangles({{-d[1] / 2.0, -d[2] / 2.0, d[1] / 2.0, d[2] / 2.0},
+                     {-arm, -d[3] / 2.0, -d[1] / 2.0, d[3] / 2.0},
+                     {d[1] / 2.0, -d[3] / 2.0, arm, d[3] / 2.0}});
+}
+
+Shape hexagon(const double* d) {
+  Shape shape;
+  const double a = d[1] / 2.0, b = a - d[0], v = d[2] / 2.0;
+  shape.outline = {{-a, 0.0}, {-b, -v}, {b, -v}, {a, 0.0}, {b, v}, {-b, v}};
+  shape.fits = d[0] > 0.0 && b >= 0.0 && v > 0.0;
+  return shape;
+}
+
+/// The shapes of PBARL and PBEAML and their numbers of dimensions.
+const std::map<std::string, std::size_t>& library() {
+  static const std::map<std::string, std::size_t> known = {
+      {"ROD", 1}, {"TUBE", 2},  {"TUBE2", 2}, {"BAR", 2}, {"BOX", 4},  {"BOX1", 6},  {"I", 6},     {"I1", 4},
+      {"H", 4},   {"T", 4},     {"T1", 4},    {"T2", 4},  {"CHAN", 4}, {"CHAN1", 4}, {"CHAN2", 4}, {"Z", 4},
+      {"L", 4},   {"CROSS", 4}, {"HEXA", 3},  {"HAT", 4}, {"HAT1", 5}, {"DBOX", 10}};
   return known;
 }
 
-/// Nastran's vertical is the element's y, its horizontal z; the .inp profiles have a along y, b along z, and an I upright in z.
-Profile to_profile(const std::string& type, const std::vector<double>& d) {
-  if (type == "ROD") return {"CIRC", {d[0]}};
-  if (type == "TUBE") return d[1] > 0.0 ? Profile{"PIPE", {d[0], d[0] - d[1]}} : Profile{"CIRC", {d[0]}};
-  if (type == "TUBE2") return {"PIPE", {d[0], d[1]}};
-  if (type == "BAR") return {"RECT", {d[1], d[0]}};
-  if (type == "BOX") return {"BOX", {d[1], d[0], d[2], d[3], d[2], d[3]}};
-  return {"I", {d[0] / 2.0, d[0], d[1], d[2], d[4], d[5], d[3]}, true};
+Shape draw(const std::string& type, const double* d) {
+  // I1, CHAN1 and Z: outstanding flanges, web, clear height, height.
+  const double flange = d[0] + d[1], half = (d[3] - d[2]) / 2.0;
+  if (type == "ROD") return circle(d[0]);
+  if (type == "TUBE") return circle(d[0], d[1]);
+  if (type == "TUBE2") return circle(d[0], d[0] - d[1]);
+  if (type == "BAR") return rectangles({{0.0, 0.0, d[0], d[1]}});
+  if (type == "BOX") return box(d[0], d[1], {d[3], d[2], d[3], d[2]});
+  if (type == "BOX1") return box(d[0], d[1], {d[5], d[2], d[4], d[3]});
+  if (type == "I") return i_shape(d[0], {d[1], d[2]}, {d[4], d[5]}, d[3]);
+  if (type == "I1") return i_shape(d[3], {flange, flange}, {half, half}, d[1]);
+  if (type == "H") return turned(i_shape(flange, {d[2], d[2]}, {d[1] / 2.0, d[1] / 2.0}, d[3]));
+  if (type == "T") return i_shape(d[1], {0.0, d[0]}, {0.0, d[2]}, d[3]);
+  if (type == "T1") return turned(i_shape(d[1] + d[2], {0.0, d[0]}, {0.0, d[2]}, d[3]));
+  if (type == "T2") return i_shape(d[1], {d[0], 0.0}, {d[2], 0.0}, d[3]);
+  if (type == "CHAN") return channel(d[1], {d[0], d[0]}, {d[3], d[3]}, d[2]);
+  if (type == "CHAN2") return turned(channel(d[3], {d[2], d[2]}, {d[0], d[0]}, d[1]));
+  if (type == "CHAN1" || type == "Z") return channel(d[3], {flange, flange}, {half, half}, d[1], type == "Z");
+  if (type == "L") return angle(d[0], d[1], d[2], d[3]);
+  if (type == "CROSS") return cross(d);
+  if (type == "HEXA") return hexagon(d);
+  if (type == "HAT") return hat(d[0], d[2], {d[3] + d[1], d[3] + d[1]}, {d[1], d[1], d[1], d[1], d[1]});
+  return type == "HAT1" ? closed_hat(d) : two_cells(d);
 }
 
-fe::Section library_section(const Card& card, const std::string& type, const std::vector<double>& dimensions,
+fe::Section library_section(Parts& parts, const Card& card, const std::string& type, std::vector<double> dimensions,
                             const std::string& name, double poisson_ratio) {
-  const Profile profile = to_profile(type, dimensions);
-  std::string problem;
-  fe::Section s = profile_section(profile.name, profile.values, poisson_ratio, problem);
-  if (!problem.empty()) card.fail(problem, "check the dimensions of the " + type);
-  if (profile.swapped) {
-    std::swap(s.inertia_y_m4, s.inertia_z_m4);
-    std::swap(s.shear_area_y_m2, s.shear_area_z_m2);
-  }
+  dimensions.resize(10);
+  const ProfileSection profile = profile_section(draw(type, dimensions.data()), poisson_ratio);
+  if (!profile.possible)
+    card.fail("a dimension is not above 0, or the dimensions do not fit together", "check the dimensions of the " + type);
+  if (profile.beside) parts.note_once(note_beside(name));
+  fe::Section s = upright(profile);
   s.name = name;
   return s;
 }
@@ -89,10 +145,13 @@ fe::Section library_section(const Card& card, const std::string& type, const std
 /// Type and number of dimensions of PBARL, PBEAML.
 std::pair<std::string, std::size_t> profile_of(const Card& card) {
   const std::string type = card.word(3);
-  const auto found = profile_dimensions().find(type);
-  if (found == profile_dimensions().end())
-    card.fail(fmt::format("section '{}' is not read, expected ROD, TUBE, TUBE2, BAR, BOX or I", type),
+  const auto found = library().find(type);
+  if (found == library().end()) {
+    std::vector<std::string> names;
+    for (const auto& [name, count] : library()) names.push_back(name);
+    card.fail(fmt::format("section '{}' is not read, expected {}", type, fmt::join(names, ", ")),
               card.name == "PBARL" ? "give its A, I1, I2, J on a PBAR" : "give its A, I1, I2, J on a PBEAM");
+  }
   return *found;
 }
 
@@ -141,9 +200,9 @@ MemberProperty tapered_library(Parts& parts, const Card& card) {
     if (values == first) continue;
     if (card.number_or(i + 1, 1.0) != 1.0)
       card.fail("has a section of its own between its ends, which is not read", "split the members there");
-    other = library_section(card, type, values, name + "_b", nu);
+    other = library_section(parts, card, type, values, name + "_b", nu);
   }
-  return member(parts, card, library_section(card, type, first, name, nu), other, nsm);
+  return member(parts, card, library_section(parts, card, type, first, name, nu), other, nsm);
 }
 
 }  // namespace
@@ -201,7 +260,7 @@ MemberProperty bar_property(Parts& parts, const Card& element, long id) {
   const std::string name = property_name(card);
   if (card.name == "PBARL") {
     const auto [type, n] = profile_of(card);
-    return member(parts, card, library_section(card, type, numbers(card, 8, n), name, poisson_ratio_of(parts, card)),
+    return member(parts, card, library_section(parts, card, type, numbers(card, 8, n), name, poisson_ratio_of(parts, card)),
                   std::nullopt, card.number_or(8 + n, 0.0));
   }
   const Station s{{card.number_or(2, 0.0), card.number_or(3, 0.0), card.number_or(4, 0.0), card.number_or(18, 0.0),

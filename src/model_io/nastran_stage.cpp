@@ -179,15 +179,8 @@ class StageReader {
 
   void move_support(const Card& card, long grid, const Directions& flags, double size) {
     const Eigen::Matrix3d axes = parts_.displacement_axes(card, grid);
-    for (std::size_t c = 0; c < 6; ++c) {
-      if (!flags[c]) continue;
-      Eigen::Index along = 0;
-      constexpr double aligned = 1.0 - 1e-9;
-      if (c > 2 || axes.row(static_cast<Eigen::Index>(c)).cwiseAbs().maxCoeff(&along) < aligned)
-        card.fail("moves a support by a rotation or along a skew axis, which is not read",
-                  "move it along a basic axis, or load the model by FORCE");
-      stage_.move(card, stage_.node(card, grid), static_cast<int>(along), size * axes(static_cast<Eigen::Index>(c), along));
-    }
+    for (int c = 0; c < 6; ++c)
+      if (flags[fe::slot(c)]) stage_.move(card, stage_.node(card, grid), c, size, axes);
   }
 
   /// Temperatures of a set: of grids, and of all others (TEMPD).

@@ -24,7 +24,7 @@ std::array<bool, 3> in_basic(const Card& card, long grid, const Eigen::Matrix3d&
     Eigen::Index along = 0;
     constexpr double aligned = 1.0 - 1e-9;
     if (axes.row(i).cwiseAbs().maxCoeff(&along) < aligned)
-      card.fail(fmt::format("holds or ties grid {} along an axis of its system CD that is skew to the basic ones", grid),
+      card.fail(fmt::format("ties grid {} along an axis of its system CD that is skew to the basic ones", grid),
                 "use a stiff CELAS2 there, which may be skew, or turn the model");
     basic[static_cast<std::size_t>(along)] = true;
   }
@@ -41,9 +41,9 @@ Directions basic_components(Parts& parts, const Card& card, long grid, const Dir
 }
 
 void hold(Parts& parts, const Card& card, long grid, const Directions& local) {
-  const Directions basic = basic_components(parts, card, grid, local);
-  auto& held = parts.held[grid];
-  for (std::size_t i = 0; i < 6; ++i) held[i] = held[i] || basic[i];
+  auto& [held, by] = parts.held[grid];
+  by = &card;
+  for (std::size_t i = 0; i < 6; ++i) held[i] = held[i] || local[i];
 }
 
 bool is_set_card(const Card& card) { return card.name == "SPC" || card.name == "SPC1"; }
@@ -237,9 +237,11 @@ void read_supports(Parts& parts) {
     const Card& from = card->blank(6) && parts.grid_defaults != nullptr ? *parts.grid_defaults : *card;
     if (!from.blank(6) && from.text(6) != "0") hold(parts, *card, id, components(from, 6));
   }
-  for (const auto& [grid, fixed] : parts.held) {
+  for (const auto& [grid, support] : parts.held) {
+    const auto& [held, by] = support;
     const auto node = parts.node_position.find(grid);
-    if (node != parts.node_position.end()) parts.hold(fmt::format("grid_{}", grid), node->second, fixed);
+    if (node != parts.node_position.end())
+      parts.hold_along(*by, fmt::format("grid_{}", grid), node->second, parts.displacement_axes(*by, grid), held);
   }
 }
 

@@ -16,6 +16,7 @@
 #include "model_io/deck_card.hpp"
 #include "model_io/deck_model.hpp"
 #include "model_io/deck_units.hpp"
+#include "model_io/profiles.hpp"
 
 namespace twindeck::model_io {
 namespace {
@@ -273,6 +274,28 @@ class SapReader {
                  "give the section or the material the value itself");
   }
 
+  /// A section that is given by its shape and dimensions alone: depth t3 along local 2, width t2, flanges tf, webs tw.
+  fe::Section drawn_section(const SapRow& row) {
+    const std::string shape = upper_case(row.get("Shape"));
+    const auto d = [&](const char* key) { return row.number_of(key, 0.0); };
+    const double t3 = d("t3"), t2 = d("t2"), tf = d("tf"), tw = d("tw");
+    Shape drawn;
+    if (shape == "RECTANGULAR") drawn = rectangles({{0.0, 0.0, t2, t3}});
+    if (shape == "CIRCLE") drawn = circle(t3 / 2.0);
+    if (shape == "PIPE") drawn = circle(t3 / 2.0, t3 / 2.0 - tw);
+    if (shape == "BOX/TUBE") drawn = box(t2, t3, {tw, tf, tw, tf});
+    if (shape == "I/WIDE FLANGE") drawn = i_shape(t3, {row.number_of("t2b", t2), t2}, {row.number_of("tfb", tf), tf}, tw);
+    if (shape == "CHANNEL") drawn = channel(t3, {t2, t2}, {tf, tf}, tw);
+    if (shape == "TEE") drawn = i_shape(t3, {0.0, t2}, {0.0, tf}, tw);
+    if (shape == "ANGLE") drawn = angle(t2, t3, tf, tw);
+    const ProfileSection profile = profile_section(drawn, deck_.model.materials[fe::slot(material(row))].poisson_ratio);
+    if (!profile.possible)
+      row.fail(fmt::format("has no Area, and its Shape {} is not read or its dimensions do not fit", row.get("Shape")),
+               "export Area, TorsConst, I33, I22, AS2 and AS3 too");
+    if (profile.beside) deck_.note_once(note_beside(row.get("SectionName")));
+    return upright(profile);
+  }
+
   /// The section of a frame with the factors of the section and of the frame.
   int frame_section(const SapRow& row, const std::string& frame) {
     static const SapRow none{};
@@ -285,16 +308,26 @@ class SapReader {
     };
     refuse_factors(row, {"AMod", "MMod"});
     refuse_factors(own, {"AMod", "MassMod"});
-    if (row.number_of("I23", 0.0) != 0.0)
-      row.fail("has a product of inertia I23, which is not read", "turn the section to its principal axes");
     fe::Section s;
+    if (row.has("Shape") && !row.has("Area")) {
+      s = drawn_section(row);
+    } else {
+      s.area_m2 = row.number_of("Area");
+      s.inertia_z_m4 = row.number_of("I33");
+      s.inertia_y_m4 = row.number_of("I22");
+      s.inertia_yz_m4 = row.number_of("I23", 0.0);
+      s.torsion_m4 = row.number_of("TorsConst");
+      s.shear_area_y_m2 = row.number_of("AS2", 0.0);
+      s.shear_area_z_m2 = row.number_of("AS3", 0.0);
+    }
+    const double about_3 = factor("I3Mod", "I33Mod"), about_2 = factor("I2Mod", "I22Mod");
     s.name = row.get("SectionName");
-    s.area_m2 = row.number_of("Area");
-    s.inertia_z_m4 = row.number_of("I33") * factor("I3Mod", "I33Mod");
-    s.inertia_y_m4 = row.number_of("I22") * factor("I2Mod", "I22Mod");
-    s.torsion_m4 = row.number_of("TorsConst") * factor("JMod", "JMod");
-    s.shear_area_y_m2 = row.number_of("AS2", 0.0) * factor("A2Mod", "AS2Mod");
-    s.shear_area_z_m2 = row.number_of("AS3", 0.0) * factor("A3Mod", "AS3Mod");
+    s.inertia_z_m4 *= about_3;
+    s.inertia_y_m4 *= about_2;
+    s.inertia_yz_m4 *= std::sqrt(std::max(0.0, about_3 * about_2));
+    s.torsion_m4 *= factor("JMod", "JMod");
+    s.shear_area_y_m2 *= factor("A2Mod", "AS2Mod");
+    s.shear_area_z_m2 *= factor("A3Mod", "AS3Mod");
     if (!(std::min({s.area_m2, s.inertia_z_m4, s.inertia_y_m4, s.torsion_m4}) > 0.0))
       row.fail("Area, I33, I22 or TorsConst is not above 0", "complete the section; a nonprismatic one is not read");
     return deck_.add_section(s);

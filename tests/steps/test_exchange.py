@@ -301,7 +301,7 @@ class ImportedByHand(Folder):
 
     def test_unsupported_element_type_and_section(self):
         self.refused(cantilever().replace("type=B33", "type=B38"), "unsupported element type B38")
-        self.refused(cantilever().replace("section=RECT", "section=ARBITRARY"), "unsupported SECTION=ARBITRARY")
+        self.refused(cantilever().replace("section=RECT", "section=ELBOW"), "unsupported SECTION=ELBOW")
 
     def test_other_faults(self):
         self.refused(cantilever().replace("*End Part", "*Include, input=a.inp\n*End Part"), "*INCLUDE", "'a.inp' is not there")

@@ -1,6 +1,9 @@
 /// Problems of ANSYS' verification manual as decks of our own, by the elements and commands that its decks use. Oracle: the
 /// targets that the manual prints, closed forms of Thomson, Timoshenko, Blevins and NAFEMS, within 1 % for beams, springs and
 /// solids and 2 % for shells.
+#include <functional>
+#include <numbers>
+
 #include "deck_table.hpp"
 #include "model_io/ansys.hpp"
 #include "nastran_deck.hpp"
@@ -202,6 +205,44 @@ TEST(AnsysManual, Plates) {
     expect_of_manual("vm62, " + type.name, head + sheet(8, 2, type.quadratic, wedge) + clamped + "D,ALL,UX,,,,,UY\n" + modal,
                      {259.16}, shells);
   }
+}
+
+/// A disc of n rings and m sectors about node 1, triangles at the centre; the nodes of its edge are the last m.
+std::string disc(int n, int m, double radius) {
+  std::string deck = "N,1\n";
+  const auto label = [&](int i, int j) { return i == 0 ? 1 : 2 + (i - 1) * m + j % m; };
+  for (int i = 1; i <= n; ++i)
+    for (int j = 0; j < m; ++j) {
+      const double r = radius * i / n, angle = 2.0 * std::numbers::pi * j / m;
+      deck += fmt::format("N,{},{:.12g},{:.12g}\n", label(i, j), r * std::cos(angle), r * std::sin(angle));
+    }
+  for (int i = 0; i < n; ++i)
+    for (int j = 0; j < m; ++j)
+      deck += i == 0 ? fmt::format("E,1,{0},{1},{1}\n", label(1, j), label(1, j + 1))
+                     : fmt::format("E,{},{},{},{}\n", label(i, j), label(i + 1, j), label(i + 1, j + 1), label(i, j + 1));
+  return deck + fmt::format("D,{},ALL,,,{}\nD,ALL,UX,,,,,UY,ROTZ\n", label(n, 0), label(n, m - 1));
+}
+
+TEST(AnsysManual, DiscsClampedAndStretched) {
+  for (const auto& [type, section] : {std::pair("SHELL63", "R,1,.5\n"), {"SHELL181", "SECTYPE,1,SHELL\nSECDATA,.5,1\n"}})
+    expect_of_manual(
+        fmt::format("vm181 by {}", type),
+        fmt::format("ET,1,{}\n{}MP,EX,1,30E6\nMP,DENS,1,.00073\nMP,NUXY,1,.3\n", type, section) + disc(12, 24, 17) + modal,
+        {172.64, 359.28}, shells);
+  for (const auto& [type, section] : {std::pair("SHELL63", "R,1,5E-5\n"), {"SHELL181", "SECTYPE,1,SHELL\nSECDATA,5E-5,1\n"}})
+    expect_of_manual(fmt::format("vm55, vm153 by {}", type),
+                     fmt::format("ET,1,{}\n{}MP,EX,1,30E6\nMP,ALPX,1,1E-5\nMP,DENS,1,.00073\nMP,NUXY,1,0\n", type, section) +
+                         disc(12, 24, 3) + "TREF,0\nBFUNIF,TEMP,-6.66666\n" + under_load,
+                     {211.1, 336.5, 450.9, 484.7}, shells, "the third is the closed form's, which the manual leaves out");
+}
+
+TEST(AnsysManual, ABeamUnderSeismicLoad) {
+  expect_of_manual(
+      "vm70, beam188",
+      "ET,1,BEAM188\nKEYOPT,1,3,3\nSECTYPE,1,BEAM,ASEC\nSECDATA,273.9726,333.333,,333.333,,1\nMP,EX,1,30E6\nMP,PRXY,1,.3\n"
+      "MP,DENS,1,73E-5\n" +
+          line_of(8, 240, 0) + "D,ALL,UZ,,,,,ROTX,ROTY\nD,1,UX,,,9,8,UY\n" + modal,
+      {6.0979}, beams);
 }
 
 TEST(AnsysManual, PlateOfSolids) {

@@ -12,9 +12,13 @@ namespace {
 constexpr double kWall = 1e-4;
 const fe::Material steel{"steel", 210e9, 81e9, 0.296, 7850.0};
 
-fe::Section profile(const std::string& name, const std::vector<double>& values) {
-  std::string problem;
-  return profile_section(name, values, 0.3, problem);
+fe::Section profile(const std::string& name, const std::vector<double>& v) {
+  const Shape shape = name == "PIPE"   ? circle(v[0], v[0] - v[1])
+                      : name == "CIRC" ? circle(v[0])
+                      : name == "BOX"  ? box(v[0], v[1], {v[2], v[3], v[2], v[3]})
+                      : name == "I"    ? i_shape(v[1], {v[2], v[3]}, {v[4], v[5]}, v[6])
+                                       : rectangles({{0.0, 0.0, v[0], v[1]}});
+  return profile_section(shape, 0.3).section;
 }
 
 struct Stiffness {

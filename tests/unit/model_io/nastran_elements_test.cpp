@@ -260,7 +260,7 @@ TEST(NastranElements, EveryRefusalNamesItsLine) {
       {"CBAR,1,4,1,9,0.,1.,0.\nPBAR,4,1,1.,1.,1.,1.", "grid 9 is not defined"},
       {"CBAR,1,4,1,2,0.,1.,0.,GOO\nPBAR,4,1,1.,1.,1.,1.", "OFFT"},
       {"PBAR,4,1,1.,1.,1.\nCBAR,1,4,1,2,0.,1.,0.", "J is 0"},
-      {"PBARL,4,1,,HAT\n,1.,1.,1.,1.\nCBAR,1,4,1,2,0.,1.,0.", "'HAT' is not read"},
+      {"PBARL,4,1,,GBOX\n,1.,1.,1.,1.\nCBAR,1,4,1,2,0.,1.,0.", "'GBOX' is not read"},
       {"PBEAM,4,1,1.,1.,1.,,1.\n,YES,.5,2.\nCBEAM,1,4,1,2,0.,1.,0.", "between its ends"},
       {"PBAR,4,2,1.,1.,1.,1.\nCBAR,1,4,1,2,0.,1.,0.", "material 2 is no MAT1"},
       {"PELAS,4,1.\nPELAS,4,2.", "defined twice"},
