@@ -188,7 +188,7 @@ void read_commands(Parts& parts) {
     } else if (const auto other = others().find(command.key); other != others().end()) {
       other->second(parts, command);
     } else if (const Ignored* why = ignored(command.key); why != nullptr) {
-      if (why->told) parts.told.emplace(upper_case(command.name), command.line);
+      if (why->told) parts.tell(command);
     } else if (command.key == "*IF" || command.key == "*DO" || command.key == "*DOWH") {
       read_over_block(parts, command);
     } else if (!read_parameter(parts, command)) {

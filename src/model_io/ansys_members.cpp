@@ -141,10 +141,13 @@ void add_solid(Builder& builder, const Member& member) {
 
 const Node& node_of(const Builder& builder, long id) { return builder.parts.nodes.at(id); }
 
-void refuse_rotated(const Builder& builder, const Member& member, long id) {
-  if (node_of(builder, id).rotated)
-    builder.fail(member, fmt::format("acts along the axes of node {}, which are turned", id),
-                 "turned nodal axes are not supported: give the node global axes");
+/// Axes of an element's nodes. @throws InputError where they differ
+const Eigen::Matrix3d& axes_of(const Builder& builder, const Member& member) {
+  const Eigen::Matrix3d& axes = node_of(builder, member.element.nodes.front()).axes;
+  for (const long id : member.element.nodes)
+    if (!node_of(builder, id).axes.isApprox(axes, 1e-9))
+      builder.fail(member, "acts along the axes of its nodes, which are turned differently", "give them the same axes");
+  return axes;
 }
 
 /// True where a displacement of the node is neither held nor without stiffness and mass of an element.
@@ -173,10 +176,6 @@ std::array<bool, 3> moving_directions(const Builder& builder, long id) {
     for (std::size_t d = 0; d < 3; ++d) moves[d] = moves[d] && !(support.node == node && support.fixed[d]);
   }
   return moves;
-}
-
-bool is_partial(const std::array<bool, 6>& fixed, std::size_t first) {
-  return fixed[first] != fixed[first + 1] || fixed[first] != fixed[first + 2];
 }
 
 }  // namespace
@@ -210,9 +209,8 @@ void add_spring(Builder& builder, const Member& member) {
         .fail(fmt::format("set {} is no linear spring", member.element.real),
               "give stiffness and damping of 0 or more, and no third constant");
   if (const long dof = type.option(2); dof > 0) {
-    for (const long id : member.element.nodes) refuse_rotated(builder, member, id);
     s.rotation = dof > 3;
-    s.direction = Eigen::Vector3d::Unit((dof - 1) % 3);
+    s.direction = axes_of(builder, member).row((dof - 1) % 3);
   } else {
     const long shape = type.option(3);  // 0 along the line, 1 about it, 2 along it in the X-Y plane
     s.rotation = shape == 1;
@@ -255,8 +253,9 @@ void add_mass(Builder& builder, const Member& member) {
   }
   if (!given) mass.mass_kg = *std::max_element(masses.begin(), masses.end());
   const Eigen::Vector3d& inertia = mass.inertia_kg_m2;
-  if (node_of(builder, id).rotated && (inertia.x() != inertia.y() || inertia.x() != inertia.z()))
-    refuse_rotated(builder, member, id);
+  if (node_of(builder, id).rotated() && (inertia.x() != inertia.y() || inertia.x() != inertia.z()))
+    builder.fail(member, "has inertia that differs by direction at a node whose axes are turned",
+                 "give the node global axes, or one inertia");
   if (mass.mass_kg < 0.0 || inertia.minCoeff() < 0.0)
     builder.parts.at(r.line, "R").fail(fmt::format("set {} has a negative mass", member.element.real), "check the sign");
   builder.parts.model.masses.push_back(mass);
@@ -273,11 +272,8 @@ void add_supports(Builder& builder) {
   if (!builder.in_plane.empty()) builder.parts.note_once("BEAM3 is a beam in space whose nodes are held out of the X-Y plane");
   for (const auto& [id, hold] : holds) {
     if (!builder.has_node(id) || hold.fixed == std::array<bool, 6>{}) continue;
-    if (node_of(builder, id).rotated && (is_partial(hold.fixed, 0) || is_partial(hold.fixed, 3)))
-      parts.at(hold.line, "D")
-          .fail(fmt::format("holds node {} along axes that are turned, which is not supported", id),
-                "give the node global axes, or hold it in all directions");
-    builder.parts.hold(hold.name.empty() ? fmt::format("node_{}", id) : hold.name, builder.node(id), hold.fixed);
+    builder.parts.hold_along(parts.at(hold.line, "D"), hold.name.empty() ? fmt::format("node_{}", id) : hold.name,
+                             builder.node(id), node_of(builder, id).axes, hold.fixed);
   }
 }
 

@@ -2,9 +2,11 @@
 
 #include <fmt/format.h>
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numbers>
 #include <utility>
 
 #include "core/error.hpp"
@@ -24,6 +26,15 @@ void add_element(Parts& parts, long id, Element element) {
   if (!parts.selected_elements.all) parts.selected_elements.ids.insert(id);
 }
 
+/// Axes of a node, turned about z, then about its own x, then about its own y [degrees].
+Eigen::Matrix3d turned_axes(const std::array<double, 3>& angles) {
+  if (angles == std::array<double, 3>{}) return Eigen::Matrix3d::Identity();
+  const auto by = [&](std::size_t i, int axis) {
+    return Eigen::AngleAxisd(angles[i] * std::numbers::pi / 180.0, Eigen::Vector3d::Unit(axis));
+  };
+  return (by(0, 2) * by(1, 0) * by(2, 1)).toRotationMatrix().transpose();
+}
+
 /// N,R5.3,LOC,node,x,y,z, or N,UNBL,LOC,…: how an archive without blocks writes them; node -1 ends a block.
 bool read_archived_node(Parts& parts, const Command& command) {
   if (!command.word(0).starts_with("R5.") && command.word(0) != "UNBL") return false;
@@ -32,11 +43,11 @@ bool read_archived_node(Parts& parts, const Command& command) {
   std::array<double, 3> values{};
   for (std::size_t i = 0; i < 3; ++i) values[i] = command.number_or(i + 3, 0.0);
   if (command.word(1) == "LOC") {
-    add_node(parts, id, {Eigen::Vector3d(values[0], values[1], values[2]), false});
+    add_node(parts, id, {Eigen::Vector3d(values[0], values[1], values[2])});
   } else if (command.word(1) == "ANG") {
     const auto found = parts.nodes.find(id);
     if (found == parts.nodes.end()) command.fail(fmt::format("node {} is not defined", id), "give its LOC line before");
-    found->second.rotated = values != std::array<double, 3>{};
+    found->second.axes = turned_axes(values);
   } else {
     command.fail(fmt::format("'{}' is neither LOC nor ANG", command.fields[1]), "check the archive");
   }
@@ -112,7 +123,7 @@ void read_node(Parts& parts, const Command& command) {
   if (id < 1) command.fail(fmt::format("{} is no node number", id), "give 1 or more");
   Node node;
   for (std::size_t i = 0; i < 3; ++i) node.x_m[static_cast<int>(i)] = command.number_or(i + 1, 0.0);
-  for (std::size_t i = 4; i < 7; ++i) node.rotated = node.rotated || command.number_or(i, 0.0) != 0.0;
+  node.axes = turned_axes({command.number_or(4, 0.0), command.number_or(5, 0.0), command.number_or(6, 0.0)});
   add_node(parts, id, node);
   parts.last_nodes = {parts.last_nodes[1], id};
 }
@@ -169,7 +180,7 @@ void fill_nodes(Parts& parts, const Command& command) {
                           b = known_node(parts, command, to + copy * increment).x_m;
     for (long i = 1; i <= count; ++i)
       add_node(parts, first + (i - 1) * step + copy * increment,
-               {a + (b - a) * (static_cast<double>(i) / static_cast<double>(count + 1)), false});
+               {a + (b - a) * (static_cast<double>(i) / static_cast<double>(count + 1))});
   }
 }
 
@@ -186,7 +197,7 @@ void generate_nodes(Parts& parts, const Command& command) {
   for (const long id : parts.nodes_of(range, 0, 1)) {
     const Node original = parts.nodes.at(id);
     for (long copy = 1; copy < times; ++copy)
-      add_node(parts, id + copy * increment, {original.x_m + static_cast<double>(copy) * shift, original.rotated});
+      add_node(parts, id + copy * increment, {original.x_m + static_cast<double>(copy) * shift, original.axes});
   }
 }
 
@@ -256,8 +267,9 @@ void read_node_block(Parts& parts, const Command& block) {
           .fail(fmt::format("'{}' is neither a node nor the end of the block", trimmed(text)), "end the block by -1");
     Node node;
     node.x_m = cells.vector(columns.integers);
-    for (std::size_t i = 3; i < columns.reals; ++i)
-      node.rotated = node.rotated || cells.number_or(columns.integers + i, 0.0) != 0.0;
+    std::array<double, 3> angles{};
+    for (std::size_t i = 3; i < std::min(columns.reals, 6UL); ++i) angles[i - 3] = cells.number_or(columns.integers + i, 0.0);
+    node.axes = turned_axes(angles);
     add_node(parts, id, node);
   }
 }

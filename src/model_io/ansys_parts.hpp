@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <algorithm>
 #include <array>
 #include <map>
 #include <optional>
@@ -21,7 +22,8 @@ namespace twindeck::model_io::ansys {
 
 struct Node {
   Eigen::Vector3d x_m = Eigen::Vector3d::Zero();
-  bool rotated = false;  ///< its own axes are turned against the global ones
+  Eigen::Matrix3d axes = Eigen::Matrix3d::Identity();  ///< its own (rows), in which supports, springs and forces count
+  [[nodiscard]] bool rotated() const { return !axes.isIdentity(0.0); }
 };
 
 struct Element {
@@ -142,6 +144,11 @@ struct Parts : DeckModel {
   Parameters parameters;
   Deck deck;
   std::map<std::string, long> told;  ///< first line of each ignored command that is worth a note, by its name
+  /// Remembers an ignored command, unless all that it says is 0 (archives write all loads so).
+  void tell(const Command& command) {
+    const auto says = [](const std::string& f) { return f.find_first_not_of(" 0.+-Ee") != std::string::npos; };
+    if (std::any_of(command.fields.begin(), command.fields.end(), says)) told.emplace(upper_case(command.name), command.line);
+  }
   std::map<long, Node> nodes;
   std::array<long, 2> last_nodes{};  ///< the last two that N gave; 0: none
   std::map<long, Element> elements;

@@ -178,9 +178,11 @@ CrossSection beam_section(Builder& builder, const Member& member, double poisson
   }
   const bool pipe = member.is("PIPE288") || member.is("PIPE289");
   const SectionDefinition* section = section_of(builder, member, pipe ? "PIPE" : "BEAM");
-  if (section == nullptr)
+  if (const auto any = builder.parts.sections.find(member.element.section); section == nullptr)
     builder.fail(
-        member, fmt::format("its section {} is no section of a beam", member.element.section),
+        member,
+        fmt::format("its section {} is {}, which is no section of a beam that is read", member.element.section,
+                    any == builder.parts.sections.end() ? "not defined" : "of type " + any->second.type),
         pipe ? "give SECTYPE,number,PIPE and SECDATA,outer diameter,wall" : "give SECTYPE,number,BEAM,shape and SECDATA");
   std::vector<double> values;
   for (const auto& row : section->data) values.insert(values.end(), row.begin(), row.end());

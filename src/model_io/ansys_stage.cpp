@@ -94,15 +94,18 @@ class Loader {
       : parts_(builder.parts), stage_(parts_, parts_.stage_is_large, "write the load as forces of nodes by F") {}
 
   void apply(const Loads& asked) {
-    for (const auto& [node, force] : asked.forces)
-      for (int d = 0; d < 6; ++d)
-        if (const double size = force[fe::slot(d)]; size != 0.0) stage_.load(stage_.node(parts_.at(0, "F"), node), d, size);
+    for (const auto& [node, force] : asked.forces) {
+      const Eigen::Map<const Eigen::Matrix<double, 6, 1>> own(force.data());
+      if (own.isZero(0.0)) continue;
+      const Eigen::Matrix3d turn = parts_.nodes.at(node).axes.transpose();
+      stage_.load(stage_.node(parts_.at(0, "F"), node), turn * own.head<3>(), turn * own.tail<3>());
+    }
     // ACEL accelerates the ground: weight acts against it.
     stage_.accelerate(-asked.acceleration);
     for (const auto& [node, movements] : parts_.movements)
       for (const auto& [dof, movement] : movements) {
         const DeckPlace at = parts_.at(movement.line, "D");
-        if (movement.value != 0.0) stage_.move(at, stage_.node(at, node), dof, movement.value);
+        if (movement.value != 0.0) stage_.move(at, stage_.node(at, node), dof, movement.value, parts_.nodes.at(node).axes);
       }
     for (const auto& [at, pressure] : asked.pressures) press(at.first, pressure);
     for (const auto& [id, state] : asked.states)
@@ -175,7 +178,7 @@ bool collect_load(Parts& parts, const Command& command) {
   } else {
     return false;
   }
-  parts.told.emplace(upper_case(command.name), command.line);
+  parts.tell(command);
   return true;
 }
 

@@ -86,7 +86,7 @@ class Ties {
   /// Position of a node that is tied. @throws InputError  for one that is not in the model or whose axes are turned
   [[nodiscard]] int node(const DeckPlace& at, long id) const {
     if (!builder_.has_node(id)) at.fail(fmt::format("ties node {}, which no element holds", id), "leave it out");
-    if (parts_.nodes.at(id).rotated)
+    if (parts_.nodes.at(id).rotated())
       at.fail(fmt::format("ties along the axes of node {}, which are turned", id),
               "turned nodal axes are not supported: give the node global axes");
     return builder_.node(id);

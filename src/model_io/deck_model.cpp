@@ -14,6 +14,9 @@
 #include "model_io/profiles.hpp"
 
 namespace twindeck::model_io {
+namespace {
+constexpr const char* skew_support = "skew_support";  ///< constraints of supports along a node's own axes
+}  // namespace
 
 bool DeckModel::together(int a, int b, double tolerance) const {
   return (place(a) - place(b)).norm() <= tolerance * (1.0 + place(b).norm());
@@ -133,7 +136,7 @@ std::vector<fe::Constraint::Term> DeckModel::free_terms(const std::vector<fe::Co
     bool any = false;
     for (const fe::Constraint::Term& term : now) {
       const auto by = std::find_if(model.constraints.begin(), model.constraints.end(), [&](const fe::Constraint& c) {
-        return c.node == term.node && c.direction == term.direction;
+        return c.node == term.node && c.direction == term.direction && c.name.starts_with(skew_support);
       });
       if (by == model.constraints.end()) {
         add(term);
@@ -281,7 +284,7 @@ void DeckModel::hold_along(const DeckPlace& at, const std::string& name, int nod
         if (counts && std::abs(factor) > nothing)
           c.terms.push_back({node, static_cast<int>(first + static_cast<std::size_t>(other)), factor});
       }
-      c.name = numbered("skew_support");
+      c.name = numbered(skew_support);
       if (c.terms.empty())
         fixed[fe::slot(c.direction)] = true;
       else

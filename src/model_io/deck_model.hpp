@@ -79,7 +79,7 @@ struct DeckModel {
   /// The slave follows the master at the end of a rigid arm in some directions, a constraint each. @param name by direction
   void tie_at_arm(const DeckPlace& at, const std::function<std::string(int)>& name, int master, int slave,
                   const Directions& tied);
-  /// The terms with those that follow others by a constraint expressed by what they follow, each displacement once.
+  /// The terms with those that a skew support makes follow others expressed by these, each displacement once.
   [[nodiscard]] std::vector<fe::Constraint::Term> free_terms(const std::vector<fe::Constraint::Term>& terms) const;
   /// The first term follows the others. @throws InputError for one that has the factor 0, or follows nothing
   void follow_first(const std::string& name, const DeckEquation& equation);

@@ -163,6 +163,17 @@ TEST(AnsysManual, BarUnderCompression) {
                    target, beams);
 }
 
+TEST(AnsysManual, TheSameBarInTurnedAxesOfItsNodes) {
+  // vm59's bar at 30 degrees in the X-Y plane, held and pushed along its own axes.
+  std::string deck = "ET,1,BEAM4\nR,1,4,4/3,4/3,2,2\nMP,EX,1,30E6\nMP,DENS,1,727.973E-6\nMP,PRXY,1,.3\n";
+  for (int i = 0; i <= 13; ++i)
+    deck +=
+        fmt::format("N,{},{:.12g},{:.12g},0,30\n", i + 1, 80.0 / 13 * i * std::cos(std::numbers::pi / 6), 80.0 / 13 * i * 0.5);
+  expect_of_manual("vm59 in turned axes",
+                   deck + "E,1,2\nEGEN,13,1,1\nD,1,UX,,,,,UY\nD,14,UY\nD,ALL,UZ,,,,,ROTX,ROTY\nF,14,FX,-40000\n" + under_load,
+                   {17.055, 105.32, 249.39}, beams);
+}
+
 /// A sheet of n × m shells of four nodes, or of eight, whose corners `place` gives from shares along and across.
 std::string sheet(int n, int m, bool quadratic, const std::function<std::array<double, 2>(double, double)>& place) {
   std::string deck;

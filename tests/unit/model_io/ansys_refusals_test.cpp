@@ -81,6 +81,19 @@ TEST(AnsysRefusals, NameLineAndCommand) {
   }
 }
 
+TEST(AnsysRefusals, SectionsOfBeams) {
+  for (const auto& [line, words] : std::vector<std::pair<std::string, std::string>>{
+           {"SECTYPE,1,TAPER\nSECDATA,0,0,0,2", "its section 1 is of type TAPE"},
+           {"SECNUM,7", "its section 7 is not defined"},
+           {"SECTYPE,1,BEAM,MESH", "'MESH' that is not supported"},
+           {"SECTYPE,1,BEAM,HREC\nSECDATA,.2,.1,.06,.01,.01,.15", "the dimensions do not fit together"},
+           {"SECTYPE,1,BEAM,CHAN\nSECDATA,.2,.2,.3,.01,.01,.008\nSECOFFSET,SHRC", "is offset by 'SHRC'"}}) {
+    const std::string answer =
+        answer_to("/PREP7\nET,1,BEAM188\nMP,EX,1,2E11\nMP,DENS,1,7850\nN,1\nN,2,1\n" + line + "\nE,1,2\nD,1,ALL\n");
+    EXPECT_NE(answer.find(words), std::string::npos) << line << "\n" << answer;
+  }
+}
+
 TEST(AnsysRefusals, NotesNameWhatIsLeftOut) {
   const TestFolder folder;
   folder.write("deck.dat", refusable("F,2,FZ,100\nMP,DMPR,1,0.02\nN,50,5,5\n/UNITS,BIN"));
