@@ -358,5 +358,42 @@ TEST(Profiles, Sap2000ShapesWithoutNumbers) {
   }
 }
 
+/// A cantilever of an angle bends about the principal axes of its section, in every dialect: 6 m, legs 150 × 12 and 100 × 10
+/// mm.
+TEST(Profiles, AnAngleBendsAboutItsPrincipalAxes) {
+  const auto [a, vv, hh, hv] = integrated({{{0, 0}, {.15, 0}, {.15, .012}, {.01, .012}, {.01, .1}, {0, .1}}});
+  const double middle = (vv + hh) / 2, apart = std::hypot((vv - hh) / 2, hv);
+  std::string nodes, elements, grids, bars;
+  for (int i = 1; i <= 21; ++i) {
+    nodes += fmt::format("{}, {}, 0., 0.\n", i, 0.3 * (i - 1));
+    grids += fmt::format("GRID,{},,{:.2f},0.,0.\n", i, 0.3 * (i - 1));
+    if (i == 21) break;
+    elements += fmt::format("{0}, {0}, {1}\n", i, i + 1);
+    bars += fmt::format("CBEAM,{0},1,{0},{1},0.,1.,0.\n", i, i + 1);
+  }
+  const TestFolder folder;
+  folder.write(
+      "angle.inp",
+      "*NODE\n" + nodes + "*ELEMENT, TYPE=B31OS, ELSET=B\n" + elements +
+          "*BEAM SECTION, ELSET=B, MATERIAL=S, SECTION=L\n.15, .1, .012, .01\n0., 1., 0.\n*MATERIAL, NAME=S\n*ELASTIC\n"
+          "2.1E11, .3\n*DENSITY\n7850.\n*BOUNDARY\n1, ENCASTRE\n");
+  folder.write("angle.dat",
+               "/PREP7\nET,1,BEAM188\nKEYOPT,1,3,3\nSECTYPE,1,BEAM,L\nSECDATA,.15,.1,.012,.01\nMP,EX,1,2.1E11\nMP,PRXY,1,.3\n"
+               "MP,DENS,1,7850\nN,1\nN,21,6\nFILL\nE,1,2\nEGEN,20,1,1\nD,1,ALL\n");
+  const fe::Model by_dialect[] = {
+      read_inp(folder.path() / "angle.inp").model, read_ansys(folder.path() / "angle.dat").model,
+      import_deck(folder, "SPC = 1\nBEGIN BULK\n" + grids + bars +
+                              "PBEAML,1,1,,L\n,.15,.1,.012,.01\nMAT1,1,2.1+11,,.3,7850.\nSPC1,1,123456,1\nENDDATA\n")
+          .model};
+  for (const fe::Model& model : by_dialect) {
+    const std::vector<double> found = frequencies(model, 2);
+    for (const auto& [mode, inertia] : {std::pair<std::size_t, double>(0, middle - apart), {1, middle + apart}})
+      EXPECT_NEAR(
+          found[mode] / (1.87510407 * 1.87510407 / (72.0 * std::numbers::pi) * std::sqrt(2.1e11 * inertia / (7850.0 * a))), 1.0,
+          3e-3)
+          << model.source;
+  }
+}
+
 }  // namespace
 }  // namespace twindeck::model_io::test::profiles
