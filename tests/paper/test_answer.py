@@ -15,7 +15,7 @@ sys.path[:0] = [str(HERE), str(HERE.parents[1] / "paper")]
 import made_up_answer  # noqa: E402
 from made_up_case import MadeUpCase  # noqa: E402
 from twindeck_report.errors import InputError  # noqa: E402
-from twindeck_report.page import answer, diagnosis, headline, telling  # noqa: E402
+from twindeck_report.page import answer, diagnosis, headline, raw_errors, telling  # noqa: E402
 from twindeck_report.page.numbers import physical, span  # noqa: E402
 from twindeck_report.page.pieces import environment, render  # noqa: E402
 from twindeck_report.study import Study  # noqa: E402
@@ -50,7 +50,8 @@ class FirstScreen(unittest.TestCase):
         self.assertIn("The model misses 8 measured frequencies by 4 % in the mean", first)
         virtual = words_of(page[page.index('id="virtual"'):page.index('id="account"')])
         order = [virtual.index(part) for part in (
-            "Made-up bridge, virtual campaign its truth is known", "The dampers C1 and C2 do not move below 434 N each; likely, 6.7 to 1; error 25 % smaller on unfitted data.",
+            "Made-up bridge, virtual campaign its truth is known", "The dampers C1 and C2 do not move below 434 N each; likely, 6.7 to 1; unfitted frequency errors fall from 0.91 to 0 %.",
+            "Frequency of 1 mode that no fit has seen: 0.91 % off before, 0 % after.",
             "mode 1 windy 0.7480 Hz 0.6900 Hz 0.7400 Hz", "What is wrong", made_up_answer.SENTENCES["what"], "How sure", made_up_answer.SENTENCES["how_sure"],
             "How much better", made_up_answer.SENTENCES["how_much_better"], "What next", made_up_answer.SENTENCES["next"], "What was hidden",
             "In the set. Friction: the dampers C1 and C2 stand still below 500 N each.", "hidden 500 N, found 434 N (181 N to 608 N, 90 %); the interval holds it",
@@ -153,8 +154,8 @@ class OneStudy(unittest.TestCase):
 class Headline(unittest.TestCase):
     """The first sentence. Oracle: arithmetic of odds, p / (1 - p), and the made-up diagnosis; 25 words are the limit by the page's own rule."""
 
-    def sentence(self, rows=40, beyond=0, updating=(6.946, 0.0312), **changes):
-        text = headline.of_diagnosis(made_up_answer.diagnosis(**changes), rows, beyond, updating)
+    def sentence(self, rows=40, beyond=0, updating=(6.946, 0.0312), raw=None, **changes):
+        text = headline.of_diagnosis(made_up_answer.diagnosis(**changes), rows, beyond, updating, raw)
         self.assertLessEqual(len(text.split()), headline.MOST_WORDS, text)
         return text
 
@@ -206,6 +207,36 @@ class Headline(unittest.TestCase):
         self.assertEqual(text, "2 stays modelled as bars vibrate; damper held by friction below a threshold force: the dampers C1 and C2; almost certain; error 25 % smaller.")
         alone = self.sentence(effects=[made_up_answer.bar_stays("NE5")])
         self.assertTrue(alone.startswith("1 stay modelled as a bar vibrates: the stay NE5; almost certain"), alone)
+
+    def raw(self, *modes, held_out=True):
+        """Of modes measured at 1 Hz, known to 0.2 %: (before, after) in Hz each."""
+        rows = [telling.Told(str(i), "calm", 1.0, before, after, 0.5, 0.75, std=0.002, held_out=held_out) for i, (before, after) in enumerate(modes, 1)]
+        return raw_errors.raw_errors(telling.Telling(rows, "without", "with"))
+
+    def test_a_gain_comes_with_errors_that_anyone_can_check(self):
+        """Means of 4 and 2 % before, of 1 and 1 % after; a mode counts as worse beyond its deviation of 0.2 % alone."""
+        self.assertTrue(self.sentence(raw=self.raw((0.96, 0.99), (1.02, 1.01))).endswith("; likely, 6.7 to 1; unfitted frequency errors fall from 3 to 1 %."))
+        self.assertTrue(self.sentence(raw=self.raw((0.96, 0.99), held_out=False)).endswith("; fitted frequency errors fall from 4 to 1 %."))
+        self.assertTrue(self.sentence(raw=self.raw((0.96, 0.99), (1.01, 0.98))).endswith("; unfitted frequency errors fall from 2.5 to 1.5 %, mode 2 worse."))
+        self.assertEqual(self.raw((0.96, 0.99), (1.01, 0.989)).further_off, [])
+        text = raw_errors.in_words(self.raw((0.96, 0.99), (1.01, 0.98), (0.99, 1.04)), 1)
+        self.assertEqual(text, "Frequencies of 3 modes that no fit has seen: 2 % off before, 2.3 % after; MAC 0.50 before, 0.75 after. "
+                               "Further off than before: mode 3, calm (-1.0 % to +4.0 %) and 1 more.")
+
+    def test_no_gain_is_claimed_where_frequencies_get_worse(self):
+        """However much smaller the standardised residuals are."""
+        gain = made_up_answer.diagnosis()["gain"] | {"reduction_pct": 84.0, "interval_pct": [79.0, 86.0]}
+        text = self.sentence(gain=gain, raw=self.raw((0.99, 0.96), (1.01, 1.0)))
+        self.assertTrue(text.endswith("; no gain: unfitted frequency errors rise from 1 to 2 %."), text)
+        self.assertNotIn("84", text)
+        text = self.sentence(gain=gain | {"interval_pct": [-2.0, 86.0]}, raw=self.raw((0.96, 0.99)))
+        self.assertTrue(text.endswith("; no gain shown: unfitted frequency errors fall from 4 to 1 %."), text)
+
+    def test_held_out_modes_alone_count_where_there_are_any(self):
+        rows = [telling.Told("1", "", 1.0, 0.9, 1.0), telling.Told("2", "", 1.0, 0.98, 0.97, held_out=True)]
+        found = raw_errors.raw_errors(telling.Telling(rows, "without", "with"))
+        self.assertEqual((found.modes, found.held_out, found.worse, found.mac), (1, True, True, None))
+        self.assertIsNone(raw_errors.raw_errors(telling.Telling(rows, "without", "")), "no cause is in a model")
 
     def test_held_out_predictions_are_drawn_where_step_9_tells_them(self):
         """gain.raw: -6 % and -1 % of a measured 0.748 Hz."""

@@ -4,7 +4,7 @@ import json
 from ..errors import InputError
 from ..manifests import sha256
 from ..study import Study
-from . import headline, picture, telling
+from . import headline, picture, raw_errors, telling
 from .diagnosis import residual_counts, verdict_in_words
 from .numbers import physical
 
@@ -40,15 +40,26 @@ def screen(study: Study, told: dict | None) -> dict:
     """Sentence, picture with the place marked, bars of the modes that tell it, states side by side; below them the account in sentences."""
     settings = study.read_toml(study.workflow / "study.toml")
     for_bars, for_table = telling.telling(study, told)
+    raw = raw_errors.raw_errors(for_bars)
     found = {"title": settings.get("title", study.name), "kind": _kind(study, settings), "picture": picture.marked(study, settings, told),
              "bars": telling.bars(for_bars), "states": telling.table(for_table), "in_bars": _other_model(for_bars, for_table), "updating": None if study.has_paper() else _updating(study), "sentences": [],
-             "score": None, "told": told, "tone": "", "sentence": _without_diagnosis(study, for_table)}
+             "raw": raw, "raw_words": raw_errors.in_words, "on_bounds": _on_bounds(study, told), "score": None, "told": told, "tone": "", "sentence": _without_diagnosis(study, for_table)}
     if told is not None:
         rows, beyond = residual_counts(study)
         tone, title, _ = verdict_in_words(told, beyond)
-        found |= {"tone": tone, "heading": title, "sentence": headline.of_diagnosis(told, rows, beyond, _mean_errors(study)),
+        found |= {"tone": tone, "heading": title, "sentence": headline.of_diagnosis(told, rows, beyond, _mean_errors(study), raw),
                   "sentences": [(question, told["sentences"].get(key, "")) for key, question in QUESTIONS], "score": _score(study, _path(study))}
     return found
+
+
+def _on_bounds(study: Study, told: dict | None) -> list:
+    """Parameters whose bounds, not the data, say what they are: of the model that step 9 fitted, else of step 6's."""
+    if told is not None:
+        return told.get("parameters_on_bounds", [])
+    if "s6_updating" not in study.steps() or not (study.results / "s6_updating/parameters.csv").is_file():
+        return []
+    table = study.step_csv("s6_updating/parameters.csv", ["parameter", "bound"])
+    return table.loc[table["bound"].isin(["lower", "upper"]), "parameter"].tolist()
 
 
 def _other_model(for_bars, for_table) -> str:

@@ -5,6 +5,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from ..errors import InputError
+from ..figures.mesh import APPROACHES
 from ..study import Study
 
 # Corners of the outer faces of a solid by its number of corners: tetrahedron, wedge, hexahedron.
@@ -24,6 +25,7 @@ class Drawing:
     elements: dict  # element id -> positions of its nodes
     groups: dict  # group, material or section -> set of positions
     names: dict  # named element, e.g. a stay -> set of positions
+    approach: np.ndarray  # (n) whether approaches alone touch the node: they reach far beyond the structure and would make it small
 
 
 def read_drawing(study: Study, folder: str) -> Drawing | None:
@@ -35,11 +37,13 @@ def read_drawing(study: Study, folder: str) -> Drawing | None:
     place = {name: i for i, name in enumerate(nodes["node"].astype(str))}
     corners = [c for c in table.columns if c.startswith("node") and c[4:].isdigit()]
     faces, lines, edges, outer = [], [], Counter(), Counter()
-    oriented, elements, groups, names = {}, {}, {}, {}
+    oriented, elements, groups, names, touched = {}, {}, {}, {}, set()
     for row in table.to_dict("records"):
         at = [_position(place, row[c], study, folder) for c in corners if row[c] == row[c]]
         kind = row["type"]
         elements[str(row["element"])] = at
+        if row.get("group") not in APPROACHES:
+            touched.update(at)
         for key in ("group", "material", "section"):
             if isinstance(row.get(key), str):
                 groups.setdefault(row[key], set()).update(at)
@@ -60,7 +64,7 @@ def read_drawing(study: Study, folder: str) -> Drawing | None:
             faces += _triangles(oriented[name])
             edges.update(tuple(sorted(e)) for e in zip(oriented[name], oriented[name][1:] + oriented[name][:1]))
     lines += [edge for edge, count in edges.items() if count == 1]
-    return _compressed(nodes, lines, faces, elements, groups, names)
+    return _compressed(nodes, lines, faces, elements, groups, names, touched)
 
 
 def _position(place: dict, name, study: Study, folder: str) -> int:
@@ -74,7 +78,7 @@ def _triangles(corners: list) -> list:
     return [(corners[0], corners[i], corners[i + 1]) for i in range(1, len(corners) - 1)]
 
 
-def _compressed(nodes, lines, faces, elements, groups, names) -> Drawing:
+def _compressed(nodes, lines, faces, elements, groups, names, touched) -> Drawing:
     """Only the nodes that a line or face touches, numbered anew."""
     used = sorted({i for part in (*lines, *faces) for i in part})
     new = {old: i for i, old in enumerate(used)}
@@ -94,4 +98,5 @@ def _compressed(nodes, lines, faces, elements, groups, names) -> Drawing:
         renumbered(elements),
         renumbered(groups),
         renumbered(names),
+        np.array([i not in touched for i in used], dtype=bool),
     )

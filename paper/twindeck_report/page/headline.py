@@ -6,9 +6,10 @@ import tomllib
 from pathlib import Path
 
 from .places import place_of, stays_of
+from .raw_errors import RawErrors
 
 MOST_WORDS = 25  # of the first sentence: what a reader takes in at a glance
-MOST_OF_THE_CAUSE = 16  # words, so that odds and gain still fit behind them
+MOST_OF_THE_CAUSE = 14  # words, so that odds and gain still fit behind them
 ALIKE = 3.0  # ratio of probabilities up to which two causes explain the data equally well: by less no one would bet on either
 LARGEST_ODDS = 1e6  # beyond it odds are told as "over a million to 1": the catalogue is not that complete
 CATALOGUE = Path(__file__).resolve().parents[3] / "workflows/common/hypotheses"
@@ -53,17 +54,20 @@ def words(text: str) -> int:
 def cause_in_words(effect: dict) -> str:
     """The cause's own sentence without its asides where it is short, else its title in the catalogue with the place."""
     told = re.sub(r"\s*\([^()]*\)", "", effect.get("sentence") or "").split(";")[0].strip().rstrip(".")
-    if told and words(told) <= MOST_OF_THE_CAUSE:
-        return told
+    return told if told and words(told) <= MOST_OF_THE_CAUSE else _titled(effect)[0]
+
+
+def _titled(effect: dict) -> list:
+    """The cause's title in the catalogue with the place, and shorter."""
     title = _title(effect)
-    return next((f"{title}: {where}" for where in _places(place_of(effect)[1]) if words(f"{title}: {where}") <= MOST_OF_THE_CAUSE), title)
+    return [t for t in (f"{title}: {where}" for where in _places(place_of(effect)[1])) if words(t) <= MOST_OF_THE_CAUSE] + [title]
 
 
 def causes_in_words(effects: list) -> list:
     """Ways to tell the causes, the one that says most first."""
     first = cause_in_words(effects[0])
     if len(effects) == 1:
-        return [first]
+        return [first, *_titled(effects[0])]
     titles = [_title(e) for e in effects]
     told = [title if stays_of(e) else ": ".join([title, *_places(place_of(e)[1])[1:2]]) for e, title in zip(effects, titles)]
     return [_listed(told), _listed(titles), f"{first} and {len(effects) - 1} more cause{'s' if len(effects) > 2 else ''}"]
@@ -97,9 +101,9 @@ def _title(effect: dict) -> str:
     return title or f"Cause {effect['cause']}"
 
 
-def of_diagnosis(told: dict, rows: int, beyond: int, updating: tuple | None) -> str:
+def of_diagnosis(told: dict, rows: int, beyond: int, updating: tuple | None, raw: RawErrors | None) -> str:
     """`rows` measured values, `beyond` of which the fitted model misses by more than it may; `updating`: mean error of the frequencies [%] before
-    and after step 6, where it ran."""
+    and after step 6, where it ran; `raw`: errors without and with the causes, where frequencies were measured."""
     effects = told["effects"]
     if told["verdict"] == "none" or (told["verdict"] != "unknown" and not effects):
         first = (f"None of the {rows} measured values contradicts the fitted model" if not beyond else
@@ -113,19 +117,28 @@ def of_diagnosis(told: dict, rows: int, beyond: int, updating: tuple | None) -> 
     leader, alike = effects[0], equally_well(effects[0])
     certain = f"not told apart from {len(alike)} other{'s' if len(alike) > 1 else ''}" if alike else sure(leader["probability"])
     odds_too = certain if alike else f"{certain}, {odds_of(leader['probability'])}"
-    gain, on_what = _gained(told.get("gain") or {})
-    tails = ([odds_too, gain + on_what], [odds_too, gain], [certain, gain])
+    tails = [[sureness, gain] for gain in _gained(told.get("gain") or {}, raw) for sureness in (odds_too, certain)]
     firsts = causes_in_words(effects)
     return next((_joined(first, parts) for first in firsts for parts in tails if words(first) + sum(map(words, parts)) <= MOST_WORDS), _joined(firsts[-1], [certain]))
 
 
-def _gained(gain: dict) -> tuple:
-    """What the cause gains, and on which data."""
+def _gained(gain: dict, raw: RawErrors | None) -> list:
+    """Ways to tell what the causes gain, the one that says most first. A gain is claimed by errors that anyone can check, and none where they grow."""
     if not gain.get("rows"):
-        return "gain not measured", ""
-    if gain["interval_pct"][0] <= 0:
-        return "no gain shown", " on unfitted data"
-    return f"error {gain['reduction_pct']:.0f} % smaller", " on unfitted data"
+        return ["gain not measured"]
+    if raw is None:
+        return [text + on_what for text in ([f"error {gain['reduction_pct']:.0f} % smaller"] if gain["interval_pct"][0] > 0 else ["no gain shown"]) for on_what in (" on unfitted data", "")]
+    no = "no gain: " if raw.worse else "" if gain["interval_pct"][0] > 0 else "no gain shown: "
+    before, after = (f"{error:.2g}" for error in raw.frequency)
+    errors = f"stay at {after} %" if before == after else f"{'rise' if raw.worse else 'fall'} from {before} to {after} %"
+    return [f"{no}{'un' if raw.held_out else ''}fitted frequency errors {errors}{_but(raw)}"]
+
+
+def _but(raw: RawErrors) -> str:
+    """The modes whose error grows, where the mean does not."""
+    if raw.worse or not raw.further_off:
+        return ""
+    return f", mode {raw.further_off[0].mode} worse" if len(raw.further_off) == 1 else f", {len(raw.further_off)} modes worse"
 
 
 def _updated(updating: tuple | None) -> str:

@@ -14,6 +14,7 @@ TALLEST = 0.85  # height of the structure at most, in widths of the picture
 MODELS = ("s6_updating", "s4_refinement", "s1_model")
 MOST_LINES = 5000
 MOST_SPOTS = 12  # rings on one picture; a cause at more points is a group, whose parts are coloured
+SAME_PLACE_M = 1e-3  # [m] apart: rounding of coordinates
 FIRST_TALLEST = 0.6  # of the first screen's picture, in its widths: the table of states stands below it on the same screen
 
 
@@ -44,10 +45,14 @@ def model_folder(study: Study) -> str | None:
     return next((f"{t}/model" for t in MODELS if t in study.steps() and (study.results / t / "model/elements.csv").is_file()), None)
 
 
-def drawn_model(drawing, place) -> str:
+def drawn_model(drawing, place, shown=None) -> str:
+    """`shown`: (n) which nodes are drawn; all of them by default."""
     at = place(drawing.points)
-    body = "".join(f"M{a[0]:.1f} {a[1]:.1f}L{b[0]:.1f} {b[1]:.1f}L{c[0]:.1f} {c[1]:.1f}z" for a, b, c in at[drawing.faces[:MOST_LINES]]) if len(drawing.faces) else ""
-    lines = _lines(at, drawing.lines[:: max(1, len(drawing.lines) // MOST_LINES)])
+    kept, faces = drawing.lines, drawing.faces[:MOST_LINES]
+    if shown is not None:
+        kept, faces = (parts[shown[parts].all(axis=1)] for parts in (kept, faces))
+    body = "".join(f"M{a[0]:.1f} {a[1]:.1f}L{b[0]:.1f} {b[1]:.1f}L{c[0]:.1f} {c[1]:.1f}z" for a, b, c in at[faces]) if len(faces) else ""
+    lines = _lines(at, kept[:: max(1, len(kept) // MOST_LINES)])
     return (f'<path class="plate" d="{body}"/>' if body else "") + f'<path class="member" d="{lines}"/>'
 
 
@@ -63,17 +68,27 @@ def marked(study: Study, settings: dict, told: dict | None) -> dict | None:
     measured = read_measured(study, settings) if drawing is None else None
     if drawing is None and measured is None:
         return None
-    place = Projection(drawing.points if drawing is not None else measured.positions, FIRST_TALLEST)
+    found = causes(study, settings, folder, told)
     if drawing is not None:
-        body = drawn_model(drawing, place)
+        shown = _without_approaches(drawing, found)
+        place = Projection(drawing.points[shown], FIRST_TALLEST)
+        body = drawn_model(drawing, place, shown)
     else:
+        place = Projection(measured.positions, FIRST_TALLEST)
         at = place(measured.positions)
         body = f'<path class="member" d="{_lines(at, measured.lines)}"/>' + "".join(f'<circle class="dot" cx="{x:.1f}" cy="{y:.1f}" r="3"/>' for x, y in at)
-    found = causes(study, settings, folder, told)
     for number, cause in enumerate((c for c in found if c["spots"] or c["nodes"]), 1):
         body += _mark(cause, drawing, place, number if len(found) > 1 else None)
     return {"svg": place.svg(body, "layout first", "The structure" + (", the place marked" if found else "")),
             "guessed": bool(found) and not (told["effects"] and told["verdict"] != "unknown"), "marks": [c["words"] for c in found if c["spots"] or c["nodes"]], "unplaced": [c["words"] for c in found if not c["spots"] and not c["nodes"]]}
+
+
+def _without_approaches(drawing, found: list) -> np.ndarray:
+    """Which nodes the picture shows: all where a cause lies on an approach, or where there is nothing else."""
+    away = drawing.approach
+    on = any(away[i] for cause in found for i in cause["nodes"])
+    near = any(np.linalg.norm(drawing.points[away] - spot, axis=1).min(initial=np.inf) < SAME_PLACE_M for cause in found for spot in cause["spots"])
+    return np.ones_like(away) if on or near or away.all() else ~away
 
 
 def causes(study: Study, settings: dict, folder, told: dict | None) -> list:

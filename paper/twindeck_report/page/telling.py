@@ -25,6 +25,8 @@ class Told:
     mac_before: float = float("nan")
     mac_after: float = float("nan")
     weight: float = 0.0  # how much the mode says: the larger of the standardised residuals, or of the errors
+    std: float = float("nan")  # [Hz] of the measured frequency
+    held_out: bool = False  # neither model was fitted to the mode
 
     def error(self, side: str) -> float:
         """[%]"""
@@ -50,7 +52,7 @@ def telling(study: Study, told: dict | None) -> tuple:
 
 def _of_rows(study: Study, told: dict) -> Telling | None:
     """The rows that step 9 used; frequencies and MAC of held-out predictions in the place of fitted ones where step 9 tells them (gain.raw)."""
-    table = study.step_csv("s9_diagnosis/residuals.csv", ["type", "mode", "channel", "condition", "value", "before", "after", "residual_before", "residual_after"])
+    table = study.step_csv("s9_diagnosis/residuals.csv", ["type", "mode", "channel", "condition", "held_out", "value", "std", "before", "after", "residual_before", "residual_after"])
     table = table.assign(mode=table["mode"].map(_mode), condition=table["condition"].fillna("").astype(str))
     shapes = _shapes(table)
     held = {(_mode(r["mode"]), str(r["condition"])): r for r in (told.get("gain") or {}).get("raw") or []}
@@ -61,7 +63,8 @@ def _of_rows(study: Study, told: dict) -> Telling | None:
         macs = shapes.get(key, (np.nan, np.nan))
         at = [_predicted(r["value"], raw.get(f"frequency_error_pct_{side}"), r[side]) for side in ("before", "after")]
         found = [_or(raw.get(f"mac_{side}"), macs[i]) for i, side in enumerate(("before", "after"))]
-        rows.append(Told(*key, r["value"], *at, *found, max(abs(r["residual_before"]), abs(r["residual_after"]))))
+        rows.append(Told(*key, r["value"], *at, *found, max(abs(r["residual_before"]), abs(r["residual_after"])), r["std"],
+                         bool(raw) or r["held_out"] == 1))
     if not rows:
         return None
     after = ("model with the causes in it" if len(told["effects"]) > 1 else "model with the cause in it") if told["effects"] else ""
