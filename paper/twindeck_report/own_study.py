@@ -37,6 +37,7 @@ TABLES = {
 WHERE_ASKED = ("s6_updating/leave_one_out.csv",)  # files that a step writes where its configuration asks for it
 NOT_OF_ANY_STUDY = ("published",)  # columns of a step's table that only a study with a paper fills
 STATED_PAIRS = {"published": "stated"}  # how step 4 names pairs that study.toml or the configuration states
+FLAGS = ("selected", "converged")  # columns of 0 and 1
 LONG_TEXT = 30  # letters; a cell with more of them gets room, so that its row does not become a tower
 # Figures on the page: what a picture shows that no other part of the page does. Name -> (title, caption).
 FIGURES = {
@@ -111,16 +112,19 @@ def _by_condition(study: Study):
 
 def _html(table, title: str) -> str:
     head = "".join(f"<th>{html.escape(heading(c))}</th>" for c in table.columns)
-    rows = "\n".join("<tr>" + "".join(_cell(v) for v in row) + "</tr>" for row in table.itertuples(index=False))
+    rows = "\n".join("<tr>" + "".join(map(_cell, row, table.columns)) + "</tr>" for row in table.itertuples(index=False))
     return f'<table class="paper-table"><caption>{html.escape(title)}</caption>\n<thead><tr>{head}</tr></thead>\n<tbody>\n{rows}\n</tbody></table>\n'
 
 
-def _cell(value) -> str:
+def _cell(value, column: str) -> str:
     text = csv_text(value)
+    if column in FLAGS and text in ("0", "1"):
+        return f"<td>{'yes' if text == '1' else 'no'}</td>"
     if number(text) is None:
         kind = ' class="words"' if len(text) > LONG_TEXT else ""
         return f"<td{kind}>{html.escape(text)}</td>"
-    return f'<td class="number">{float(text):.5g}</td>'
+    digits = 2 if "_std_" in column else 5
+    return f'<td class="number">{float(text):.{digits}g}</td>'
 
 
 def write_own_report(study: Study):

@@ -71,7 +71,7 @@ def _without_diagnosis(study: Study, told) -> str:
     """The first sentence where step 9 is not among the steps."""
     errors = _mean_errors(study)
     if errors is not None:
-        return f"Updating took the mean frequency error from {errors[0]:.2g} to {errors[1]:.2g} %; no step looked for a cause of the rest."
+        return f"Updating took the mean error of the fitted frequencies from {errors[0]:.2g} to {errors[1]:.2g} %; no step looked for a cause of the rest."
     if told is None:
         return "No step has found a mode yet."
     if not told.before:
