@@ -16,7 +16,7 @@ HERE = Path(__file__).resolve().parent
 sys.path[:0] = [str(HERE), str(HERE.parents[1] / "paper")]
 
 from twindeck_report.errors import InputError  # noqa: E402
-from twindeck_report.page import measured, poles, scripts  # noqa: E402
+from twindeck_report.page import measured, picture, poles, scripts  # noqa: E402
 from twindeck_report.page.drawing import read_drawing  # noqa: E402
 from twindeck_report.page.flowchart import duration, flowchart  # noqa: E402
 from twindeck_report.page.heatmap import colour, heatmaps  # noqa: E402
@@ -46,6 +46,17 @@ class Drawings(unittest.TestCase):
         header = "element,type,name,group,material,section," + ",".join(f"node{i}" for i in range(1, 9))
         write(self.root / "model/elements.csv", header + "\n" + "\n".join(elements) + "\n")
         return read_drawing(self.study, "model")
+
+    def test_the_first_picture_leaves_approaches_out_unless_a_cause_lies_there(self):
+        """A girder and, behind it, a ramp to a far node: its end is not drawn, its beginning belongs to the girder."""
+        drawing = self.model(["1,beam,,girder,steel,,1,2,,,,,,", "2,beam,,ramp,steel,,2,99,,,,,,"])
+        cause = {"spots": [], "nodes": []}
+        self.assertEqual(drawing.approach.tolist(), [False, False, True])
+        self.assertEqual(picture._without_approaches(drawing, [cause]).tolist(), [True, True, False])
+        for there in ({"nodes": [2]}, {"spots": [[9.0, 9.0, 9.0]]}):
+            self.assertTrue(picture._without_approaches(drawing, [cause | there]).all())
+        ramp = self.model(["1,beam,,ramp,steel,,1,2,,,,,,"])
+        self.assertTrue(picture._without_approaches(ramp, []).all(), "a model of a ramp")
 
     def test_two_solids_show_ten_faces(self):
         """Two cubes, one on the other: 12 faces less the two that touch; 10 squares are 20 triangles; the edges of the seam are drawn

@@ -4,11 +4,10 @@ from dataclasses import dataclass
 import numpy as np
 
 from ..errors import InputError
+from ..page.drawing import APPROACHES
 from ..study import Study
 
 CORNERS = ["node1", "node2", "node3", "node4"]
-# Groups that lead up to the bridge. They reach far beyond the decks and would leave the bridge itself a small part of a drawing.
-APPROACHES = ("ramp", "ramp_pier")
 
 
 @dataclass(frozen=True)

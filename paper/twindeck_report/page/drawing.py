@@ -5,9 +5,10 @@ from dataclasses import dataclass
 import numpy as np
 
 from ..errors import InputError
-from ..figures.mesh import APPROACHES
 from ..study import Study
 
+# Groups that lead up to the bridge. They reach far beyond the decks and would leave the bridge itself a small part of a drawing.
+APPROACHES = ("ramp", "ramp_pier")
 # Corners of the outer faces of a solid by its number of corners: tetrahedron, wedge, hexahedron.
 SOLID_FACES = {
     4: ((0, 2, 1), (0, 1, 3), (1, 2, 3), (2, 0, 3)),
