@@ -217,7 +217,8 @@ class Headline(unittest.TestCase):
         """Means of 4 and 2 % before, of 1 and 1 % after; a mode counts as worse beyond its deviation of 0.2 % alone."""
         self.assertTrue(self.sentence(raw=self.raw((0.96, 0.99), (1.02, 1.01))).endswith("; likely, 6.7 to 1; unfitted frequency errors fall from 3 to 1 %."))
         self.assertTrue(self.sentence(raw=self.raw((0.96, 0.99), held_out=False)).endswith("; fitted frequency errors fall from 4 to 1 %."))
-        self.assertTrue(self.sentence(raw=self.raw((0.96, 0.99), (1.01, 0.98))).endswith("; unfitted frequency errors fall from 2.5 to 1.5 %, mode 2 worse."))
+        self.assertTrue(self.sentence(raw=self.raw((0.96, 0.99), (1.01, 0.98))).endswith("; unfitted frequency errors fall from 2.5 to 1.5 %, but mode 2's grows."))
+        self.assertTrue(self.sentence(raw=self.raw((0.9, 0.99), (1.01, 0.98), (1.01, 1.02))).endswith("; unfitted frequency errors fall from 4 to 1.7 %, but 2 grow."))
         self.assertEqual(self.raw((0.96, 0.99), (1.01, 0.989)).further_off, [])
         text = raw_errors.in_words(self.raw((0.96, 0.99), (1.01, 0.98), (0.99, 1.04)), 1)
         self.assertEqual(text, "Frequencies of 3 modes that no fit has seen: 2 % off before, 2.3 % after; MAC 0.50 before, 0.75 after. "

@@ -53,7 +53,7 @@ def words(text: str) -> int:
 
 def cause_in_words(effect: dict) -> str:
     """The cause's own sentence without its asides where it is short, else its title in the catalogue with the place."""
-    told = re.sub(r"\s*\([^()]*\)", "", effect.get("sentence") or "").split(";")[0].strip().rstrip(".")
+    told = in_runs(re.sub(r"\s*\([^()]*\)", "", effect.get("sentence") or "").split(";")[0].strip().rstrip("."))
     return told if told and words(told) <= MOST_OF_THE_CAUSE else _titled(effect)[0]
 
 
@@ -135,10 +135,10 @@ def _gained(gain: dict, raw: RawErrors | None) -> list:
 
 
 def _but(raw: RawErrors) -> str:
-    """The modes whose error grows, where the mean does not."""
+    """The frequencies whose error grows, where the mean does not."""
     if raw.worse or not raw.further_off:
         return ""
-    return f", mode {raw.further_off[0].mode} worse" if len(raw.further_off) == 1 else f", {len(raw.further_off)} modes worse"
+    return f", but mode {raw.further_off[0].mode}'s grows" if len(raw.further_off) == 1 else f", but {len(raw.further_off)} grow"
 
 
 def _updated(updating: tuple | None) -> str:

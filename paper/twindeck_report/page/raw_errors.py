@@ -12,6 +12,7 @@ class RawErrors:
     modes: int
     frequency: tuple  # (before, after) mean of the absolute errors [%]
     mac: tuple | None  # (before, after) mean over the modes that have both; None where no shape was measured
+    damping: tuple | None  # (before, after) as `frequency`, of the damping ratios that were fitted
     further_off: list  # of Told: modes whose frequency the causes move away from the measured one by more than its standard deviation
 
     @property
@@ -26,7 +27,7 @@ def raw_errors(told: Telling | None) -> RawErrors | None:
     rows = [r for r in told.rows if r.held_out] or told.rows
     alike = [(r.mac_before, r.mac_after) for r in rows if r.mac_before == r.mac_before and r.mac_after == r.mac_after]
     return RawErrors(rows[0].held_out, len(rows), tuple(_mean(abs(r.error(side)) for r in rows) for side in ("before", "after")),
-                     tuple(map(_mean, zip(*alike))) if alike else None, sorted(filter(_further_off, rows), key=lambda r: -abs(r.error("after"))))
+                     tuple(map(_mean, zip(*alike))) if alike else None, told.damping, sorted(filter(_further_off, rows), key=lambda r: -abs(r.error("after"))))
 
 
 def _further_off(row: Told) -> bool:
@@ -42,7 +43,8 @@ def _mean(values) -> float:
 def in_words(raw: RawErrors, most: int | None = None) -> str:
     """Both errors, and the modes that are further off than before, the worst first; `most` of them where there are many."""
     told = f"Frequenc{'ies' if raw.modes > 1 else 'y'} of {raw.modes} {'' if raw.held_out else 'fitted '}mode{'s' if raw.modes > 1 else ''}{' that no fit has seen' if raw.held_out else ''}: {raw.frequency[0]:.2g} % off before, {raw.frequency[1]:.2g} % after"
-    told += f"; MAC {raw.mac[0]:.2f} before, {raw.mac[1]:.2f} after." if raw.mac else "."
+    told += f"; MAC {raw.mac[0]:.2f} before, {raw.mac[1]:.2f} after" if raw.mac else ""
+    told += f"; {'fitted ' if raw.held_out else ''}damping ratios {raw.damping[0]:.2g} % off before, {raw.damping[1]:.2g} % after." if raw.damping else "."
     if raw.further_off:
         modes = [f"mode {r.mode}{', ' + r.state.replace('_', ' ') if r.state else ''} ({r.error('before'):+.1f} % to {r.error('after'):+.1f} %)" for r in raw.further_off[:most]]
         told += f" Further off than before: {'; '.join(modes)}{f' and {len(raw.further_off) - len(modes)} more' if len(modes) < len(raw.further_off) else ''}."

@@ -38,6 +38,7 @@ class Telling:
     rows: list  # of Told
     before: str  # what `before` is
     after: str  # what `after` is, empty where there is no such model
+    damping: tuple | None = None  # (before, after) mean of the absolute errors of the damping ratios [%], where they were fitted too
 
 
 def telling(study: Study, told: dict | None) -> tuple:
@@ -68,7 +69,11 @@ def _of_rows(study: Study, told: dict) -> Telling | None:
     if not rows:
         return None
     after = ("model with the causes in it" if len(told["effects"]) > 1 else "model with the cause in it") if told["effects"] else ""
-    return Telling(rows, "model fitted within its bounds", after)
+    return Telling(rows, "model fitted within its bounds", after, _damping(table[table["type"] == "damping_ratio_pct"]))
+
+
+def _damping(table: pd.DataFrame) -> tuple | None:
+    return tuple(float(100.0 * (table[side] / table["value"] - 1.0).abs().mean()) for side in ("before", "after")) if len(table) else None
 
 
 def _predicted(measured: float, error_pct, fitted: float) -> float:

@@ -46,3 +46,9 @@ for (const button of document.querySelectorAll('button[data-more]'))
     const open = document.getElementById(button.dataset.more).classList.toggle('short');
     button.textContent = open ? button.dataset.all : 'show fewer';
   });
+
+for (const figure of document.querySelectorAll('.gallery figure')) {
+  const turn = () => figure.classList.toggle('large');
+  figure.addEventListener('click', turn);
+  figure.addEventListener('keydown', e => { if (e.key === 'Enter') turn(); });
+}
