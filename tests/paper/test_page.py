@@ -73,6 +73,7 @@ class Page(unittest.TestCase):
             self.poles_tell_their_numbers(b)
             self.modes_are_chosen_by_hand(b)
             self.rows_are_found(b)
+            self.figures_are_small_until_they_are_clicked(b)
             shot = Path(self.folder) / f"page_{renderer}.png"
             self.assertGreater(len(set(pixels_of(b.screenshot(shot)))), 20, "the screenshot is not blank")
             self.assertEqual(b.errors, [])
@@ -180,6 +181,16 @@ class Page(unittest.TestCase):
         self.assertAlmostEqual(low, 1.0, places=2)
         self.assertAlmostEqual(high, 1.5, places=2)
         self.assertTrue(all(0.99 < f < 1.51 for f in b.run("twindeck.poles.seen.map(s => s.p[1])")), "only poles of the zoomed band are drawn")
+
+    def figures_are_small_until_they_are_clicked(self, b):
+        """All of them in less than a third of the height that they have one below the other."""
+        small, large, again = b.run("""(() => { document.querySelector('#figures details').open = true;
+          const all = [...document.querySelectorAll('#figures figure')], height = () => document.getElementById('figures').getBoundingClientRect().height;
+          const found = [height()];
+          for (let i = 0; i < 2; ++i) { all.forEach(f => f.click()); found.push(height()); }
+          return found; })()""")
+        self.assertLess(small, large / 3)
+        self.assertEqual(small, again, "a second click makes them small")
 
     def rows_are_found(self, b):
         """Worst first, the first rows only; a search shows every row that holds its words."""

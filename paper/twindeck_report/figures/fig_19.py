@@ -29,7 +29,7 @@ def draw(study: Study):
         curves.setdefault(tuple(rows["h1"]), []).append((angle, rows["V_over_fB"]))
     for i, (values, shared) in enumerate(sorted(curves.items(), key=lambda c: max(abs(a) for a, _ in c[1]))):
         left.plot(shared[0][1], values, color=plt.cm.viridis(i / max(1, len(curves) - 1) * 0.9), linewidth=1.4,
-                  label="α = " + " and ".join(f"{angle:+.0f}°" for angle, _ in shared))
+                  label="α = " + " and ".join(f"{angle:+.0f}°".replace("+0", "0") for angle, _ in shared))
     steady = h1[(h1["set"] == "quasi_steady") & (h1["angle_of_attack_deg"] == 0)]
     left.plot(steady["V_over_fB"], steady["h1"], color=INK, linewidth=1.0, linestyle=(0, (5, 3)), label="quasi-steady, α = 0°")
     left.axhline(0, color=PALE, linewidth=0.8)
@@ -46,5 +46,5 @@ def draw(study: Study):
     right.set_title("(b)", loc="left")
     right.legend(frameon=False, fontsize=8)
     right.text(0.98, 0.03, "synthetic", transform=right.transAxes, ha="right", color="#5b6673", fontsize=8)
-    left.text(0.98, 0.97, "synthetic", transform=left.transAxes, ha="right", va="top", color="#5b6673", fontsize=8)
+    left.text(0.98, 0.9, "synthetic", transform=left.transAxes, ha="right", va="top", color="#5b6673", fontsize=8)
     return figure, pd.concat([h1, polar], ignore_index=True)
