@@ -51,7 +51,7 @@ class FirstScreen(unittest.TestCase):
         virtual = words_of(page[page.index('id="virtual"'):page.index('id="account"')])
         order = [virtual.index(part) for part in (
             "Made-up bridge, virtual campaign its truth is known", "The dampers C1 and C2 do not move below 434 N each; likely, 6.7 to 1; unfitted frequency errors fall from 0.91 to 0 %.",
-            "Frequency of 1 mode that no fit has seen: 0.91 % off before, 0 % after.",
+            "Frequency of 1 mode that no fit has seen off by 0.91 % before, 0 % after.",
             "mode 1 windy 0.7480 Hz 0.6900 Hz 0.7400 Hz", "What is wrong", made_up_answer.SENTENCES["what"], "How sure", made_up_answer.SENTENCES["how_sure"],
             "How much better", made_up_answer.SENTENCES["how_much_better"], "What next", made_up_answer.SENTENCES["next"], "What was hidden",
             "In the set. Friction: the dampers C1 and C2 stand still below 500 N each.", "hidden 500 N, found 434 N (181 N to 608 N, 90 %); the interval holds it",
@@ -221,7 +221,7 @@ class Headline(unittest.TestCase):
         self.assertTrue(self.sentence(raw=self.raw((0.9, 0.99), (1.01, 0.98), (1.01, 1.02))).endswith("; unfitted frequency errors fall from 4 to 1.7 %, but 2 grow."))
         self.assertEqual(self.raw((0.96, 0.99), (1.01, 0.989)).further_off, [])
         text = raw_errors.in_words(self.raw((0.96, 0.99), (1.01, 0.98), (0.99, 1.04)), 1)
-        self.assertEqual(text, "Frequencies of 3 modes that no fit has seen: 2 % off before, 2.3 % after; MAC 0.50 before, 0.75 after. "
+        self.assertEqual(text, "Frequencies of 3 modes that no fit has seen off by 2 % before, 2.3 % after; MAC 0.50 before, 0.75 after. "
                                "Further off than before: mode 3, calm (-1.0 % to +4.0 %) and 1 more.")
 
     def test_no_gain_is_claimed_where_frequencies_get_worse(self):

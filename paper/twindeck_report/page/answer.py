@@ -47,6 +47,7 @@ def screen(study: Study, told: dict | None) -> dict:
     if told is not None:
         rows, beyond = residual_counts(study)
         tone, title, _ = verdict_in_words(told, beyond)
+        tone = "warn" if tone == "good" and told["effects"] and raw is not None and raw.worse else tone
         found |= {"tone": tone, "heading": title, "sentence": headline.of_diagnosis(told, rows, beyond, _mean_errors(study), raw),
                   "sentences": [(question, told["sentences"].get(key, "")) for key, question in QUESTIONS], "score": _score(study, _path(study))}
     return found

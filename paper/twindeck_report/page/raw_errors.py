@@ -2,6 +2,7 @@
 has seen where step 9 tells them (`gain.raw` of diagnosis.json, or frequencies marked as held out), else the fitted ones, which are said to be fitted."""
 from dataclasses import dataclass
 
+from .heatmap import OWN
 from .telling import Telling, Told
 
 LEAST_GROWTH = 0.1  # [%] of the measured frequency: the last digit that the page shows
@@ -41,11 +42,22 @@ def _mean(values) -> float:
 
 
 def in_words(raw: RawErrors, most: int | None = None) -> str:
-    """Both errors, and the modes that are further off than before, the worst first; `most` of them where there are many."""
-    told = f"Frequenc{'ies' if raw.modes > 1 else 'y'} of {raw.modes} {'' if raw.held_out else 'fitted '}mode{'s' if raw.modes > 1 else ''}{' that no fit has seen' if raw.held_out else ''}: {raw.frequency[0]:.2g} % off before, {raw.frequency[1]:.2g} % after"
-    told += f"; MAC {raw.mac[0]:.2f} before, {raw.mac[1]:.2f} after" if raw.mac else ""
-    told += f"; {'fitted ' if raw.held_out else ''}damping ratios {raw.damping[0]:.2g} % off before, {raw.damping[1]:.2g} % after." if raw.damping else "."
-    if raw.further_off:
-        modes = [f"mode {r.mode}{', ' + r.state.replace('_', ' ') if r.state else ''} ({r.error('before'):+.1f} % to {r.error('after'):+.1f} %)" for r in raw.further_off[:most]]
-        told += f" Further off than before: {'; '.join(modes)}{f' and {len(raw.further_off) - len(modes)} more' if len(modes) < len(raw.further_off) else ''}."
-    return told
+    """The errors, and the modes that are further off than before, the worst first; `most` of them where there are many."""
+    modes = f"{raw.modes} {'' if raw.held_out else 'fitted '}mode{'s' if raw.modes > 1 else ''}{' that no fit has seen' if raw.held_out else ''}"
+    told = [f"Frequenc{'ies' if raw.modes > 1 else 'y'} of {modes} off by {_both(raw.frequency, '{:.2g} %')}"]
+    if raw.mac:
+        told.append(f"MAC {_both(raw.mac, '{:.2f}')}")
+    if raw.damping:
+        told.append(f"{'fitted ' if raw.held_out else ''}damping ratios off by {_both(raw.damping, '{:.2g} %')}")
+    worse = "; ".join(map(_changed, raw.further_off[:most]))
+    left_out = len(raw.further_off[most:]) if most else 0
+    return f"{'; '.join(told)}.{f' Further off than before: {worse}' if worse else ''}{f' and {left_out} more' if left_out else ''}{'.' if worse else ''}"
+
+
+def _both(pair: tuple, form: str) -> str:
+    return f"{form.format(pair[0])} before, {form.format(pair[1])} after"
+
+
+def _changed(row: Told) -> str:
+    name = row.mode if row.mode.startswith(OWN) else f"mode {row.mode}"
+    return f"{name}{', ' if row.state else ''}{row.state.replace('_', ' ')} ({row.error('before'):+.1f} % to {row.error('after'):+.1f} %)"
