@@ -4,6 +4,7 @@ import json
 import pandas as pd
 
 from ..study import Study
+from . import raw_errors, telling
 from .headline import equally_well, odds_of, odds_of_log, sure
 from .heatmap import NAMES, heatmaps
 from .numbers import physical, span
@@ -42,10 +43,11 @@ def diagnosis_data(study: Study, settings: dict) -> dict | None:
     rows = study.step_csv("s9_diagnosis/residuals.csv", ["type", "mode", "channel", "condition", "held_out", "residual_before", "residual_after"])
     beyond = {side: _beyond(rows, side) for side in ("before", "after")}
     tone, title, meaning = verdict_in_words(told, beyond["before"])
+    raw = raw_errors.raw_errors(telling.telling(study, told)[0]) if told["effects"] else None
     fitted = _fitted(study)
     folder = "s6_updating/model" if "s6_updating" in study.steps() else None
     where = places(study, settings, folder, told.get("localisation", []))
-    return {"told": told, "tone": tone, "title": title, "meaning": meaning, "beyond": beyond, "beyond_held_out": _beyond(rows[rows["held_out"] == 1], "before"), "kind": _kind, "block": _block, "rows": len(rows), "heatmaps": heatmaps(rows, bool(told["effects"])),
+    return {"told": told, "tone": tone, "title": title, "meaning": meaning, "beyond": beyond, "beyond_held_out": _beyond(rows[rows["held_out"] == 1], "before"), "kind": _kind, "block": _block, "rows": len(rows), "raw": raw and raw_errors.in_words(raw), "heatmaps": heatmaps(rows, bool(told["effects"])),
             "tried": _tried(fitted), "causes_tried": len(fitted), "places": where[:12], "where": where, "folder": folder,
             "gain_of": _kinds(study), "sure": sure, "odds": odds_of_log, "odds_of": odds_of, "quantity": _quantity, "size": _size, "physical": physical, "parameters": _parameters(told)}
 
