@@ -218,7 +218,7 @@ class Headline(unittest.TestCase):
         self.assertTrue(self.sentence(raw=self.raw((0.96, 0.99), (1.02, 1.01))).endswith("; likely, 6.7 to 1; unfitted frequency errors fall from 3 to 1 %."))
         self.assertTrue(self.sentence(raw=self.raw((0.96, 0.99), held_out=False)).endswith("; fitted frequency errors fall from 4 to 1 %."))
         self.assertTrue(self.sentence(raw=self.raw((0.96, 0.99), (1.01, 0.98))).endswith("; unfitted frequency errors fall from 2.5 to 1.5 %, but mode 2's grows."))
-        self.assertTrue(self.sentence(raw=self.raw((0.9, 0.99), (1.01, 0.98), (1.01, 1.02))).endswith("; unfitted frequency errors fall from 4 to 1.7 %, but 2 grow."))
+        self.assertTrue(self.sentence(raw=self.raw((0.9, 0.99), (0.9, 0.99), (1.01, 0.98), (1.01, 1.02))).endswith("; unfitted frequency errors fall from 5.5 to 1.5 %, but 2 grow."))
         self.assertEqual(self.raw((0.96, 0.99), (1.01, 0.989)).further_off, [])
         text = raw_errors.in_words(self.raw((0.96, 0.99), (1.01, 0.98), (0.99, 1.04)), 1)
         self.assertEqual(text, "Frequencies of 3 modes that no fit has seen off by 2 % before, 2.3 % after; MAC 0.50 before, 0.75 after. "
@@ -230,6 +230,8 @@ class Headline(unittest.TestCase):
         text = self.sentence(gain=gain, raw=self.raw((0.99, 0.96), (1.01, 1.0)))
         self.assertTrue(text.endswith("; no gain: unfitted frequency errors rise from 1 to 2 %."), text)
         self.assertNotIn("84", text)
+        text = self.sentence(gain=gain, raw=self.raw((0.9, 0.99), (1.01, 0.98), (1.01, 1.02)))
+        self.assertTrue(text.endswith("; no gain: 2 of 3 unfitted frequencies further off."), f"the mean falls by one mode alone: {text}")
         text = self.sentence(gain=gain | {"interval_pct": [-2.0, 86.0]}, raw=self.raw((0.96, 0.99)))
         self.assertTrue(text.endswith("; no gain shown: unfitted frequency errors fall from 4 to 1 %."), text)
 
