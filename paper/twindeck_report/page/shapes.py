@@ -74,7 +74,8 @@ def _conditions(study: Study) -> list:
 
 
 def mesh_data(drawing) -> dict:
-    return {"points": packed(drawing.points, "f4"), "lines": packed(drawing.lines, "u4"), "faces": packed(drawing.faces, "u4")}
+    return {"points": packed(drawing.points, "f4"), "lines": packed(drawing.lines, "u4"), "faces": packed(drawing.faces, "u4"),
+            "approach": packed(np.flatnonzero(drawing.approach), "u4") if drawing.approach.any() and not drawing.approach.all() else None}
 
 
 def _model_modes(study: Study, token: str, drawing, budget: int):

@@ -11,7 +11,7 @@ class ModeShapes {
     this.root = root;
     this.data = data;
     this.meshes = data.meshes.map(m => ({
-      points: unpack(m.points, Float32Array), lines: unpack(m.lines, Uint32Array), faces: unpack(m.faces, Uint32Array),
+      points: unpack(m.points, Float32Array), framed: framed(unpack(m.points, Float32Array), m), lines: unpack(m.lines, Uint32Array), faces: unpack(m.faces, Uint32Array),
       marks: m.marks || [], held: Float32Array.from((m.marks || []).flatMap(k => k.at)) }));
     this.shapes = new Map();
     this.phase = Math.PI / 2;
@@ -77,7 +77,7 @@ class ModeShapes {
     this.along = null;
     this.apart = this.change.checked ? this.difference() : null;
     if (set.kind === 'model') {
-      Object.assign(scene, { base: mesh.points, faces: mesh.faces, lines: mesh.lines, spots: mesh.held, names: mesh.marks.map(k => k.words), dot: 7 });
+      Object.assign(scene, { base: mesh.points, framed: mesh.framed, faces: mesh.faces, lines: mesh.lines, spots: mesh.held, names: mesh.marks.map(k => k.words), dot: 7 });
       this.real = this.imaginary = null;
       this.along = { shape: this.shape(mode, 'shape', Int16Array), scale: 1 / 32767 };
     } else {
@@ -85,11 +85,11 @@ class ModeShapes {
       this.real = this.shape(mode, 'real', Float32Array);
       this.imaginary = this.shape(mode, 'imag', Float32Array);
       if (mesh && this.over.checked && mode.partner !== undefined) {
-        Object.assign(scene, { base: mesh.points, faces: mesh.faces, lines: mesh.lines });
+        Object.assign(scene, { base: mesh.points, framed: mesh.framed, faces: mesh.faces, lines: mesh.lines });
         const partner = first.modes[mode.partner];
         this.along = { shape: this.shape(partner, 'shape', Int16Array), scale: mode.factor / 32767 };
       } else if (mesh) {
-        Object.assign(scene, { base: mesh.points, lines: mesh.lines, ghost: false });
+        Object.assign(scene, { base: mesh.points, framed: mesh.framed, lines: mesh.lines, ghost: false });
       } else {  // no model: the sensors are joined as the campaign says
         Object.assign(scene, { base: scene.spots, lines: unpack(set.lines, Uint32Array) });
       }

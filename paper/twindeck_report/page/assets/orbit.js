@@ -3,7 +3,8 @@
 const FIELD = 28 * Math.PI / 180;
 
 class Orbit {
-  constructor(points) {
+  /// `points` fill the picture at first; `all` can be looked at.
+  constructor(points, all = points) {
     this.points = points;
     // size of the box that holds nearly all points: a long thin approach ramp should not make the mode sway more
     const low = [], high = [];
@@ -15,8 +16,8 @@ class Orbit {
     this.middle = low.map((l, k) => 0.5 * (l + high[k]));
     this.size = Math.max(1e-9, Math.hypot(...low.map((l, k) => high[k] - l)));
     this.reach = this.size;  // of the point that is furthest from the middle, for the planes between which the camera sees
-    for (let i = 0; i < points.length; i += 3)
-      this.reach = Math.max(this.reach, Math.hypot(points[i] - this.middle[0], points[i + 1] - this.middle[1], points[i + 2] - this.middle[2]));
+    for (let i = 0; i < all.length; i += 3)
+      this.reach = Math.max(this.reach, Math.hypot(all[i] - this.middle[0], all[i + 1] - this.middle[1], all[i + 2] - this.middle[2]));
     // the longest direction in plan runs across the screen
     let xx = 0, xy = 0, yy = 0;
     for (let i = 0; i < points.length; i += 3) {
@@ -37,7 +38,7 @@ class Orbit {
     this.fit();
   }
 
-  /// Target in the middle of what is seen, and the distance at which every point is inside the picture, approach ramps too.
+  /// Target in the middle of what is seen, and the distance at which every one of the points is inside the picture.
   fit() {
     this.distance = 1;
     const [right, up, back] = this.axes(), tan = Math.tan(FIELD / 2);

@@ -14,6 +14,12 @@ const unpack = (text, type) => {
   return new type(bytes.buffer);
 };
 
+/// Points of a structure without those of its approaches, which would make it small in the picture.
+const framed = (points, mesh) => {
+  const away = new Set(mesh.approach ? unpack(mesh.approach, Uint32Array) : []);
+  return points.filter((_, i) => !away.has(Math.floor(i / 3)));
+};
+
 class Viewer {
   /// `root` holds the canvas; `draw(viewer)` sets positions and colours. WebGL draws lines one pixel thin: a frame of few members and no
   /// plates (`membersOnly`) is easier to see on a plain canvas.
@@ -37,11 +43,11 @@ class Viewer {
       button.addEventListener('click', () => { this.orbit.zoom(Number(button.dataset.zoom)); this.paint(); });
   }
 
-  /// scene: base (3 n), faces, lines (positions), spots (3 p), names (p), dot [px], ghost, spotsOnTop.
+  /// scene: base (3 n), framed (what the picture is fitted to at first; base by default), faces, lines (positions), spots (3 p), names (p), dot [px], ghost, spotsOnTop.
   show(scene, keepCamera) {
     this.scene = scene;
     if (!this.orbit || !keepCamera) {
-      const orbit = new Orbit(scene.base.length ? scene.base : scene.spots);
+      const all = scene.base.length ? scene.base : scene.spots, orbit = new Orbit(scene.framed || all, all);
       if (this.orbit) Object.assign(this.orbit, orbit);
       else (this.orbit = orbit).listen(this.canvas, () => this.paint());
     }

@@ -8,7 +8,7 @@ class Where {
       for (let i = 0; i < score.length; ++i) blend([PALE, AMBER, RED], score[i], v.colours, 3 * i);
       data.spots.forEach((s, i) => blend([PALE, AMBER, RED], s.score / data.most, v.spotColours, 3 * i));
     }, fewMembers({ lines, faces }));
-    this.viewer.show({ base: points, faces, lines, spots,
+    this.viewer.show({ base: points, framed: framed(points, mesh), faces, lines, spots,
       names: data.spots.map(s => `${s.name}: ${s.score.toFixed(1)}`), dot: 11, ghost: false, spotsOnTop: true });
   }
 }
