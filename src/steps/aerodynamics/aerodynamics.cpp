@@ -14,57 +14,6 @@
 namespace twindeck::steps {
 namespace {
 
-// What a set's level multiplies, in words.
-std::string fitted_quantity(const std::string& set) { return set == "standin" ? "self-excited forces" : "lift slope"; }
-
-/// What the step found.
-struct WindOutcome {
-  std::vector<aero::FittedSet> sets;
-  aero::Instabilities instabilities;
-  std::vector<aero::StaticResponse> statics;
-};
-
-void write_summary(const AerodynamicsConfig& config, const aero::WindModel& model, const WindOutcome& found,
-                   const std::filesystem::path& file) {
-  const std::optional<aero::StaticDifference> difference = aero::static_difference(found.statics, "G", "H");
-  io::CsvWriter summary({"quantity", "value", "unit"});
-  summary.row({"still_air_frequency_1", model.modes.frequency_Hz(0), "Hz"});
-  summary.row({"design_speed", config.design_speed_m_s, "m/s"});
-  if (difference) {
-    summary.row({"static_displacement_G_H", difference->displacement_m, "m"});
-    summary.row({"static_rotation_G_H", difference->rotation_rad * degrees, "deg"});
-  }
-  for (const aero::DampingCurves& curves : found.instabilities.damping) {
-    if (curves.dampers) {
-      summary.row(
-          {"least_damping_with_dampers_" + curves.set, 100.0 * aero::least_damping(curves, config.design_speed_m_s), "%"});
-    }
-  }
-  summary.save(file);
-}
-
-void write_tables(const AerodynamicsConfig& config, const aero::WindModel& model, const WindOutcome& found,
-                  const std::filesystem::path& folder) {
-  std::vector<std::string> names;
-  std::vector<std::vector<aero::SectionAero>> sections;
-  io::CsvWriter levels({"set", "level", "fitted_quantity", "fitted_model", "fitted_speed_m_s"});
-  for (const aero::FittedSet& set : found.sets) {
-    names.push_back(set.name);
-    sections.push_back(set.sections);
-    levels.row({set.name, set.level, fitted_quantity(set.name), config.fit_model, config.fit_speed_m_s});
-  }
-  levels.save(folder / "sets.csv");
-  write_critical(found.instabilities.critical, config, folder / "critical.csv");
-  write_damping(found.instabilities.damping, folder / "damping.csv");
-  write_nodes(model.strips, found.sets.front().sections, folder / "nodes.csv");
-  write_static(found.statics, model.strips, folder / "static.csv");
-  write_rules(config, folder / "rules.csv");
-  write_equations(folder / "equations.csv");
-  write_galloping(names, sections, folder / "galloping.csv");
-  write_polars(names, sections, folder / "polars.csv");
-  write_summary(config, model, found, folder / "summary.csv");
-}
-
 void say_outcome(const runner::StepContext& context, const AerodynamicsConfig& config, const aero::Instabilities& found) {
   for (const aero::CriticalRow& row : found.critical) {
     if (row.point) {

@@ -17,8 +17,8 @@ std::string status_of(const aero::CriticalRow& row, double max_speed_m_s) {
   return row.lost.empty() ? found : found + "; " + row.lost;
 }
 
-}  // namespace
-
+/// critical.csv; V_cr is empty where no mode becomes unstable up to `max_speed`. `ratio_to_A` and `f_cr_over_f1` within the
+/// set: over model A without dampers at `structural_damping`, and empty where `models` has no A.
 void write_critical(const std::vector<aero::CriticalRow>& rows, const AerodynamicsConfig& config,
                     const std::filesystem::path& file) {
   std::map<std::string, double> speed_of_A;
@@ -45,6 +45,7 @@ void write_critical(const std::vector<aero::CriticalRow>& rows, const Aerodynami
   csv.save(file);
 }
 
+/// damping.csv: total damping of each mode over the wind speed (Fig. 20).
 void write_damping(const std::vector<aero::DampingCurves>& curves, const std::filesystem::path& file) {
   io::CsvWriter csv(
       {"set", "model", "dampers", "structural_damping_pct", "mode", "V_m_s", "frequency_Hz", "damping_ratio_pct"});
@@ -59,6 +60,7 @@ void write_damping(const std::vector<aero::DampingCurves>& curves, const std::fi
   csv.save(file);
 }
 
+/// nodes.csv: where and how each strip stands in the wind (Figs 16, 17, 21): yaw, B, B', L, L', angle of attack.
 void write_nodes(const std::vector<aero::Strip>& strips, const std::vector<aero::SectionAero>& sections,
                  const std::filesystem::path& file) {
   io::CsvWriter csv({"deck", "node", "station_m", "x_m", "y_m", "z_m", "yaw_deg", "angle_of_attack_deg", "chord_m", "length_m",
@@ -87,6 +89,7 @@ void write_static(const std::vector<aero::StaticResponse>& responses, const std:
   csv.save(file);
 }
 
+/// rules.csv: Table 11 (and 14) as data: what the text cells of the tables are made from.
 void write_rules(const AerodynamicsConfig& config, const std::filesystem::path& file) {
   io::CsvWriter csv({"deployment", "deck", "beyond_deg", "model", "group", "description", "statics", "lookup_cos_power",
                      "block_inverse_cos_power_force", "block_inverse_cos_power_cross", "block_inverse_cos_power_moment",
@@ -105,6 +108,7 @@ void write_rules(const AerodynamicsConfig& config, const std::filesystem::path& 
   csv.save(file);
 }
 
+/// equations.csv: where the paper's equations cannot hold as printed.
 void write_equations(const std::filesystem::path& file) {
   io::CsvWriter csv({"equation", "printed", "taken", "reason", "as_printed_can_be_chosen"});
   for (const aero::EquationDifference& d : aero::equation_differences())
@@ -112,6 +116,8 @@ void write_equations(const std::filesystem::path& file) {
   csv.save(file);
 }
 
+/// galloping.csv: Den Hartog's sum C_L' + C_D of each deck over the polar's angles, and h1* over reduced velocity (Fig. 19).
+/// From -4 to 4 degrees and from 1 to 20, as far as polar and table reach.
 void write_galloping(const std::vector<std::string>& sets, const std::vector<std::vector<aero::SectionAero>>& sections,
                      const std::filesystem::path& file) {
   io::CsvWriter csv({"set", "deck", "angle_of_attack_deg", "V_over_fB", "h1", "den_hartog"});
@@ -145,6 +151,51 @@ void write_polars(const std::vector<std::string>& sets, const std::vector<std::v
     }
   }
   csv.save(file);
+}
+
+void write_summary(const AerodynamicsConfig& config, const aero::WindModel& model, const WindOutcome& found,
+                   const std::filesystem::path& file) {
+  const std::optional<aero::StaticDifference> difference = aero::static_difference(found.statics, "G", "H");
+  io::CsvWriter summary({"quantity", "value", "unit"});
+  summary.row({"still_air_frequency_1", model.modes.frequency_Hz(0), "Hz"});
+  summary.row({"design_speed", config.design_speed_m_s, "m/s"});
+  if (difference) {
+    summary.row({"static_displacement_G_H", difference->displacement_m, "m"});
+    summary.row({"static_rotation_G_H", difference->rotation_rad * degrees, "deg"});
+  }
+  for (const aero::DampingCurves& curves : found.instabilities.damping) {
+    if (curves.dampers) {
+      summary.row(
+          {"least_damping_with_dampers_" + curves.set, 100.0 * aero::least_damping(curves, config.design_speed_m_s), "%"});
+    }
+  }
+  summary.save(file);
+}
+
+}  // namespace
+
+std::string fitted_quantity(const std::string& set) { return set == "standin" ? "self-excited forces" : "lift slope"; }
+
+void write_tables(const AerodynamicsConfig& config, const aero::WindModel& model, const WindOutcome& found,
+                  const std::filesystem::path& folder) {
+  std::vector<std::string> names;
+  std::vector<std::vector<aero::SectionAero>> sections;
+  io::CsvWriter levels({"set", "level", "fitted_quantity", "fitted_model", "fitted_speed_m_s"});
+  for (const aero::FittedSet& set : found.sets) {
+    names.push_back(set.name);
+    sections.push_back(set.sections);
+    levels.row({set.name, set.level, fitted_quantity(set.name), config.fit_model, config.fit_speed_m_s});
+  }
+  levels.save(folder / "sets.csv");
+  write_critical(found.instabilities.critical, config, folder / "critical.csv");
+  write_damping(found.instabilities.damping, folder / "damping.csv");
+  write_nodes(model.strips, found.sets.front().sections, folder / "nodes.csv");
+  write_static(found.statics, model.strips, folder / "static.csv");
+  write_rules(config, folder / "rules.csv");
+  write_equations(folder / "equations.csv");
+  write_galloping(names, sections, folder / "galloping.csv");
+  write_polars(names, sections, folder / "polars.csv");
+  write_summary(config, model, found, folder / "summary.csv");
 }
 
 }  // namespace twindeck::steps
