@@ -4,6 +4,7 @@
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <numbers>
 
 #include "aero/aeroelastic_system.hpp"
@@ -136,6 +137,128 @@ Branch follow_mode(const AeroelasticSystem& system, const ComplexMode& still_air
     last_speed = speed;
   }
   return branch;
+}
+
+namespace {
+
+constexpr double no_growth = 1e-12;  ///< [-] damping ratio: rounding of an eigenvalue
+
+// z² of each strip, whatever the phase.
+std::vector<double> vertical_square(const AeroelasticSystem& system, const ComplexMode& motion) {
+  std::vector<double> square;
+  for (const StripMotion& strip : system.motions())
+    square.push_back(std::norm((strip.row(2).cast<std::complex<double>>() * motion.vector)(0)));
+  return square;
+}
+
+// sum over strips of z² times the lift per heave velocity.
+double heave_damping(const AeroelasticSystem& system, const std::vector<double>& square, double speed, double omega) {
+  double sum = 0.0;
+  for (std::size_t i = 0; i < square.size(); ++i) {
+    const Strip& strip = system.strips()[i];
+    const SectionAero& section = system.sections()[static_cast<std::size_t>(strip.section)];
+    sum +=
+        square[i] * self_excited(section, strip, system.rule(strip), system.wind().density_kg_m3, speed, omega).damping(1, 1);
+  }
+  return sum;
+}
+
+}  // namespace
+
+std::optional<CriticalPoint> critical_point(const AeroelasticSystem& system, const Branch& branch) {
+  if (branch.points.empty()) return std::nullopt;
+  if (branch.still_air.damping_ratio() <= no_growth &&
+      branch.points[0].damping_ratio() < -no_growth)  // from the first speed on
+    return CriticalPoint{
+        branch.mode,      branch.speed_m_s[0], branch.points[0].frequency_Hz(), branch.still_air.frequency_Hz(),
+        branch.points[0], branch.speed_m_s[0]};
+  for (std::size_t i = 0; i < branch.points.size(); ++i) {
+    const ComplexMode& before = i == 0 ? branch.still_air : branch.points[i - 1];
+    if (!(before.damping_ratio() > 0.0 && branch.points[i].damping_ratio() <= 0.0)) continue;
+    double low = i == 0 ? 0.0 : branch.speed_m_s[i - 1], high = branch.speed_m_s[i];
+    ComplexMode at_low = before, at_high = branch.points[i];
+    // Illinois rule: false position that halves the weight of an end that stays.
+    double f_low = at_low.lambda.real(), f_high = at_high.lambda.real();
+    for (int k = 0; k < 200 && high - low > relative_bracket * high && f_high != 0.0; ++k) {
+      double guess = k % 3 == 2 ? 0.5 * (low + high) : low - f_low * (high - low) / (f_high - f_low);
+      std::optional<ComplexMode> middle = mode_at(system, at_low, low, guess);
+      if (!middle) middle = mode_at(system, at_low, low, guess = 0.5 * (low + high));
+      if (!middle) break;
+      if (middle->lambda.real() < 0.0) {
+        low = guess;
+        at_low = *middle;
+        f_low = middle->lambda.real();
+        f_high *= 0.5;
+      } else {
+        high = guess;
+        at_high = *middle;
+        f_high = middle->lambda.real();
+        f_low *= 0.5;
+      }
+    }
+    return CriticalPoint{branch.mode,
+                         high,
+                         at_high.frequency_Hz(),
+                         branch.still_air.frequency_Hz(),
+                         at_high,
+                         at_high.lambda.real() == 0.0 ? 0.0 : high - low};
+  }
+  return std::nullopt;
+}
+
+GallopingCharacter galloping_character(const AeroelasticSystem& system, const ComplexMode& motion, double speed_m_s) {
+  const std::vector<double> square = vertical_square(system, motion);
+  std::map<std::string, std::pair<double, double>> by_deck;  // sum of z² L, sum of z² L theta²
+  double total = 0.0;
+  for (std::size_t i = 0; i < square.size(); ++i) {
+    const Strip& strip = system.strips()[i];
+    auto& [weight, moment] = by_deck[strip.deck];
+    const double w = square[i] * strip.length_m;
+    weight += w;
+    moment += w * strip.yaw_rad * strip.yaw_rad;
+    total += w;
+  }
+  GallopingCharacter character;
+  double largest = 0.0;
+  for (const auto& [deck, sums] : by_deck) {
+    if (sums.first <= largest) continue;
+    largest = sums.first;
+    character.deck = deck;
+    character.theta_rms_rad = std::sqrt(sums.second / sums.first);
+    character.deck_share = sums.first / total;
+  }
+  // Lift per heave velocity grows as V* h1*, so one power of V is not h1*'s.
+  const double omega = motion.lambda.imag(), step = 1e-3;
+  const double up = heave_damping(system, square, speed_m_s * (1.0 + step), omega);
+  const double down = heave_damping(system, square, speed_m_s * (1.0 - step), omega);
+  character.exponent = std::log(std::abs(up / down)) / std::log((1.0 + step) / (1.0 - step)) - 1.0;
+  return character;
+}
+
+std::optional<double> divergence_speed(const AeroelasticSystem& system) {
+  const Eigen::VectorXd inverse = system.structure().omega_rad_s.cwiseInverse();
+  const Eigen::MatrixXd ratio = inverse.asDiagonal() * system.static_stiffness() * inverse.asDiagonal();
+  const Eigen::VectorXcd values = Eigen::EigenSolver<Eigen::MatrixXd>(ratio, false).eigenvalues();
+  double largest = 0.0;
+  for (const std::complex<double>& value : values) {
+    if (std::abs(value.imag()) <= 1e-9 * std::abs(value)) largest = std::max(largest, value.real());
+  }
+  if (largest <= 0.0) return std::nullopt;
+  return 1.0 / std::sqrt(largest);
+}
+
+std::optional<double> den_hartog_speed(const AeroelasticSystem& system, Eigen::Index coordinate) {
+  double sum = 0.0;
+  for (std::size_t i = 0; i < system.strips().size(); ++i) {
+    const Strip& strip = system.strips()[i];
+    const SectionAero& section = system.sections()[static_cast<std::size_t>(strip.section)];
+    const StaticCoefficients c = section.polar.at(strip.alpha_rad);
+    const double z = system.motions()[i](2, coordinate);
+    sum += section.chord_m * (c.lift_slope + c.drag) * z * z * strip.length_m;
+  }
+  if (sum >= 0.0) return std::nullopt;
+  return -4.0 * system.structure().omega_rad_s(coordinate) * system.structure().damping_ratio(coordinate) /
+         (system.wind().density_kg_m3 * sum);
 }
 
 }  // namespace twindeck::aero

@@ -5,7 +5,6 @@
 #include <string>
 #include <vector>
 
-#include "aero/critical_speed.hpp"
 #include "aero/follow_mode.hpp"
 #include "aero/wind_model.hpp"
 #include "linalg/cholesky.hpp"

@@ -6,7 +6,7 @@
 #include "core/reporter.hpp"
 #include "identification/identification.hpp"
 #include "identification/merge_poser.hpp"
-#include "identification/merging_check.hpp"
+#include "identification/merge_preger.hpp"
 
 namespace twindeck::identification {
 

@@ -4,7 +4,9 @@
 #include <string>
 #include <vector>
 
+#include "identification/identification.hpp"
 #include "identification/identify.hpp"
+#include "identification/merge_poser.hpp"
 
 namespace twindeck::identification {
 
@@ -26,5 +28,33 @@ struct SetupCorrelations {
 [[nodiscard]] std::vector<std::vector<Pole>> merge_preger(const std::vector<SetupCorrelations>& setups, Eigen::Index n_channels,
                                                           Eigen::Index block_rows, const std::vector<int>& orders,
                                                           double rate_Hz);
+
+/// PoSER against PreGER for one mode.
+struct MergingCheck {
+  bool found = false;  ///< PreGER has the mode
+  double frequency_Hz = 0.0, damping_ratio = 0.0, mac = 0.0;
+  Eigen::VectorXcd shape;                                      ///< (all channels)
+  double poser_frequency_Hz = 0.0, poser_damping_ratio = 0.0;  ///< what it is held against, whichever merging counts
+};
+
+/// MAC over the channels where both shapes are known (not NaN); 0 for none.
+[[nodiscard]] double known_mac(const Eigen::VectorXcd& a, const Eigen::VectorXcd& b);
+
+/// PreGER's counterpart of each mode of PoSER: a mode of PreGER within two per cent of its frequency, one-to-one with the
+/// largest sum of MAC. Where no mode of PreGER is near, the poles within half a per cent of its frequency are taken, the
+/// nearest of each order: median of frequency and damping, mean of the shape. A mode whose near ones all belong to other modes
+/// has none.
+/// @param modes     of PoSER
+/// @param preger    shapes of its modes physical, those of its poles as identified
+/// @param channels  of all setups @param scale  (n_channels) what the records were divided by
+/// @return one a mode
+[[nodiscard]] std::vector<MergingCheck> merging_checks(const std::vector<MergedMode>& modes, const Identification& preger,
+                                                       const std::vector<records::CampaignChannel>& channels,
+                                                       const Eigen::VectorXd& scale);
+
+/// Puts PreGER's values in the place of PoSER's, where PreGER has the mode. It gives no deviations of its own: they become the
+/// root of the sum of squares of PoSER's and the difference of both mergings, so that neither value is thought more certain
+/// than the choice between two ways to merge the same records. Channels that PoSER's shape lacks stay NaN.
+void take_preger(MergedMode& mode, const MergingCheck& check);
 
 }  // namespace twindeck::identification

@@ -7,9 +7,24 @@
 
 #include "core/error.hpp"
 #include "core/samples.hpp"
-#include "identification/lone_sample.hpp"
 
 namespace twindeck::identification {
+
+/// A sample that no motion explains: an error value of the recorder, a bit that flipped.
+struct LoneSample {
+  Eigen::Index sample = 0;
+  double value = 0.0;
+  double deviations = 0.0;  ///< distance from the channel's median in robust standard deviations (1.4826 times the median of
+                            ///< absolute distances)
+};
+
+/// The sample furthest from the median among those that stand alone: up to three in a row whose neighbours on both sides are
+/// within a twentieth of its distance, the first ones as well as the median of ten. What moves a structure does not stand
+/// alone: an impact is followed by a free decay, an earthquake lasts, and the filter in front of the converter spreads a pulse
+/// over its neighbours.
+/// @param x  NaN or infinite where missing
+/// @return none where no sample stands alone more than ten robust deviations off
+[[nodiscard]] std::optional<LoneSample> lone_sample(const Eigen::Ref<const Eigen::VectorXd>& x);
 
 /// A record that is sound as a file, but cannot be identified: too short, a dead or clipped channel, a long gap. Where the step
 /// has other records it goes on without this one, and says so.
@@ -46,5 +61,16 @@ struct ChannelQuality {
 /// Bridges gaps of at most `longest` samples by a straight line. @return samples filled
 /// @throws UnusableRecord  naming channel and sample if a longer gap is left, or one at an end of the record
 long fill_gaps(Eigen::MatrixXd& data, const std::vector<std::string>& channels, long longest, const std::string& record);
+
+/// Samples at which a channel was driven past its range: those in runs of three or more at its largest or smallest value; and
+/// all at such a value, in runs or not, where it holds far more samples than the values next to it. A slow channel stays at its
+/// rail for several samples, a fast one comes back at once.
+///
+/// The second count asks what no sound record shows. Of a continuous record the extreme value occurs once. Coarse counts give
+/// every value many samples, but the extreme one no more than its neighbours: the tails of noise fall off, and a sine has at
+/// its crest at most 1/(sqrt(2) - 1) = 2.4 times as many samples as one count below. Records of fewer than a dozen values are
+/// judged by their runs alone.
+/// @param x  NaN or infinite where missing @param lowest @param highest  of the samples that are there, lowest < highest
+[[nodiscard]] long clipped_samples(const Eigen::Ref<const Eigen::VectorXd>& x, double lowest, double highest);
 
 }  // namespace twindeck::identification

@@ -24,4 +24,29 @@ struct BlockLanczosResult {
 [[nodiscard]] BlockLanczosResult block_lanczos(const SelfAdjointOperator& op,
                                                const std::function<Eigen::MatrixXd(int draw)>& start, int n_pairs);
 
+/// A block W = Q R with Q M-orthonormal; Q has fewer columns than W where W is rank-deficient.
+struct OrthonormalBlock {
+  Eigen::MatrixXd q, mass_q, r;
+};
+
+/// Orthonormalises `w` in the inner product of M by the eigenvectors of its Gram matrix, twice because of rounding.
+/// @param mass_w   M w; receives the same combinations as w, so that one product with M is enough
+/// @param removed  what was taken off w along an M-orthonormal basis before (one row of zeros for nothing): of columns that are
+///                 below 1e-11 of their norm with it only rounding is left
+[[nodiscard]] OrthonormalBlock orthonormalise(Eigen::MatrixXd w, Eigen::MatrixXd mass_w, const Eigen::MatrixXd& removed);
+
+/// The M-orthonormal basis of a block Krylov method, with its products by M.
+struct KrylovBasis {
+  Eigen::MatrixXd v, mass_v;  ///< (n × capacity), `size` columns in use
+  Eigen::Index size = 0;
+
+  KrylovBasis(Eigen::Index n, Eigen::Index capacity) : v(n, capacity), mass_v(n, capacity) {}
+  void append(const OrthonormalBlock& block);
+  /// Makes `w` orthogonal to the basis. The image of the last block has a part along the last two only, but for rounding: taken
+  /// off first, it leaves a remainder of which one pass over the whole basis takes the rest.
+  /// @param near  first column of the basis along which `w` has more than rounding (0: all of it)
+  /// @return what was taken off, (size × columns of w)
+  [[nodiscard]] Eigen::MatrixXd remove_from(Eigen::MatrixXd& w, Eigen::Index near) const;
+};
+
 }  // namespace twindeck::linalg

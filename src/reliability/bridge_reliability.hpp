@@ -9,7 +9,7 @@
 #include "aero/wind_study.hpp"
 #include "buffeting/bridge_in_wind.hpp"
 #include "reliability/crossings.hpp"
-#include "reliability/limit_state.hpp"
+#include "reliability/form.hpp"
 #include "reliability/random_inputs.hpp"
 #include "reliability/varied_structure.hpp"
 

@@ -2,12 +2,16 @@
 
 #include <Eigen/Core>
 #include <cstdint>
+#include <functional>
 #include <vector>
 
 #include "core/error.hpp"
-#include "reliability/limit_state.hpp"
 
 namespace twindeck::reliability {
+
+/// g(u) of independent standard normal numbers u (n): the limit is exceeded where g <= 0. A value that is not finite counts as
+/// exceeded. Compose it with RandomVector::values for inputs of other laws.
+using LimitState = std::function<double(const Eigen::VectorXd& u)>;
 
 /// Design point: the point of g = 0 nearest to the origin of standard normal space.
 struct DesignPoint {

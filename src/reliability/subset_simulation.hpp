@@ -4,7 +4,7 @@
 #include <cstdint>
 
 #include "core/error.hpp"
-#include "reliability/limit_state.hpp"
+#include "reliability/form.hpp"
 
 namespace twindeck::reliability {
 

@@ -6,9 +6,9 @@
 
 #include "core/parallel.hpp"
 #include "dynamics/free_structure.hpp"
+#include "linalg/block_lanczos.hpp"
 #include "linalg/cholesky.hpp"
 #include "linalg/dense.hpp"
-#include "linalg/krylov_basis.hpp"
 
 namespace twindeck::sensitivity {
 

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "identification/clustering.hpp"
-#include "sensors/layout_settings.hpp"
+#include "sensors/layout.hpp"
 #include "sensors/setup_scores.hpp"
 
 namespace twindeck::sensors {

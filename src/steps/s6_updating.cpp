@@ -7,7 +7,7 @@
 #include "steps/updating/inputs.hpp"
 #include "steps/updating/outputs.hpp"
 #include "updating/paired_modes.hpp"
-#include "updating/twins.hpp"
+#include "updating/weighing_words.hpp"
 
 namespace {
 using namespace twindeck;

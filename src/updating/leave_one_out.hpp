@@ -1,9 +1,12 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <memory>
+#include <optional>
 #include <vector>
 
 #include "updating/search.hpp"
+#include "updating/updating.hpp"
 
 namespace twindeck::updating {
 
@@ -17,5 +20,25 @@ namespace twindeck::updating {
 /// @return (n_targets) in the order of the targets; empty with fewer than two of them
 /// Reference: Stone (1974), J. R. Stat. Soc. B 36, 111-147.
 [[nodiscard]] std::vector<LeftOut> leave_each_out(const Search& search, const Eigen::VectorXd& initial);
+
+/// Mean absolute errors relative to the measured frequencies, over the targets.
+struct PredictionErrors {
+  double before = 0.0;    ///< of the start model
+  double left_out = 0.0;  ///< of each target where it is left out of the updating
+};
+
+/// @param result  of an update with options.leave_one_out
+/// @return nothing where no target was left out, or one was not predicted
+[[nodiscard]] std::optional<PredictionErrors> prediction_errors(const UpdatingResult& result,
+                                                                const std::vector<FrequencyTarget>& targets);
+
+/// The update with the prior of the ranges (prior.hpp), and each target left out of it, where an update predicts left-out
+/// targets worse than no update does. One search, from the initial values: the prior leaves no second optimum within the
+/// ranges of a model that is nearly linear there.
+/// @param found  the update without a prior; the other arguments as in `update`
+/// @return null where that predicts at least as well, or was not asked to
+[[nodiscard]] std::shared_ptr<const UpdatingResult> regularised_where_worse(
+    const UpdatingResult& found, const fe::ParametricSystem& start, const Refresh& refresh, const std::vector<int>& active,
+    const std::vector<FrequencyTarget>& targets, UpdatingOptions options, const MeasuredRows& rows);
 
 }  // namespace twindeck::updating

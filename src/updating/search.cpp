@@ -9,7 +9,6 @@
 
 #include "updating/optimality.hpp"
 #include "updating/problem.hpp"
-#include "updating/smooth_bounds.hpp"
 
 namespace twindeck::updating {
 

@@ -10,7 +10,6 @@
 #include "core/parallel.hpp"
 #include "updating/leave_one_out.hpp"
 #include "updating/multi_start.hpp"
-#include "updating/regularised.hpp"
 #include "updating/residuals.hpp"
 #include "updating/search.hpp"
 #include "updating/valley_walk.hpp"

@@ -35,8 +35,9 @@ struct UpdatingOptions {
   std::uint64_t seed = 1;
   bool leave_one_out = false;              ///< afterwards each target is left out in turn and predicted (leave_one_out.hpp)
   std::vector<Eigen::VectorXd> elsewhere;  ///< (n_active each) further values at which the cost is computed
-  bool regularised = true;  ///< afterwards, where left-out targets are predicted worse than without an update (regularised.hpp)
-  bool prior = false;       ///< parameters are held to their initial values by the deviations of their ranges (prior.hpp)
+  bool regularised =
+      true;            ///< afterwards, where left-out targets are predicted worse than without an update (leave_one_out.hpp)
+  bool prior = false;  ///< parameters are held to their initial values by the deviations of their ranges (prior.hpp)
 };
 
 /// One accepted step of a search. `theta` are the active parameters divided by their initial values (by their range where the
@@ -58,7 +59,7 @@ struct StartResult {
   std::string message;
 };
 
-/// The best start's problem solved again by a smooth map of the bounds (smooth_bounds.hpp), at the prestress of its end.
+/// The best start's problem solved again by a smooth map of the bounds (problem.hpp), at the prestress of its end.
 struct SmoothCheck {
   Eigen::VectorXd theta;  ///< (n_active) in the parameters' units; empty where it could not be made
   double cost = 0.0;
@@ -111,7 +112,7 @@ struct UpdatingResult {
   std::vector<LeftOut> left_out;                      ///< (n_targets) where options.leave_one_out, else empty
   std::vector<CostElsewhere> elsewhere;               ///< one a point of options.elsewhere
   std::shared_ptr<const UpdatingResult> regularised;  ///< where left-out targets are predicted worse than without an update
-                                                      ///< (regularised.hpp), else null
+                                                      ///< (leave_one_out.hpp), else null
   Status status;
 };
 
@@ -140,7 +141,7 @@ using Refresh = std::function<fe::ParametricSystem(const Eigen::VectorXd& theta)
 /// @param progress called when a start has ended; may be empty
 /// @param rows     measured rows with their covariance: F is then half the sum of squared weighed rows (weighted_rows.hpp), of
 ///                 frequencies alone or of shapes too; by default Eq. (5).
-/// @return the cheapest converged start; among ends of equal cost the nearest to the initial values (flat_valley.hpp), and in a
+/// @return the cheapest converged start; among ends of equal cost the nearest to the initial values (valley_walk.hpp), and in a
 ///         valley of equal cost its nearest point (valley_walk.hpp); status not converged if no start converged
 /// @throws InputError  for a parameter that is fixed or starts outside its bounds, no parameter or target, a frequency that is
 ///                     not positive, or a mode that does not exist

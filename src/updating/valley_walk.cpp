@@ -1,10 +1,117 @@
 #include "updating/valley_walk.hpp"
 
+#include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
 #include <vector>
 
+#include "core/error.hpp"
+#include "updating/bounded_quadratic.hpp"
+
 namespace twindeck::updating {
+namespace {
+
+using Eigen::Index;
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+constexpr double cost_left = 1e-6;     // [-] ends of one optimum differ by 1e-8 at a tolerance of 1e-6; a hundredfold margin
+constexpr double equally_near = 1e-6;  // [ranges] as `bound_tolerance`: nobody reads parameters closer
+constexpr double least_ridge = 1e-9;   // [-] of the ridge towards the wanted point, whose place it moves by as little
+
+double largest_singular_value(const MatrixXd& per_range) {
+  if (per_range.size() == 0) return 0.0;
+  return Eigen::JacobiSVD<MatrixXd>(per_range).singularValues()(0);
+}
+
+/// Components that no multiplier holds on a bound: a multiplier below the search's tolerance is rounding.
+std::vector<Index> movable(const VectorXd& gradient, const MatrixXd& per_range, const VectorXd& x, const Box& box,
+                           const Sight& sight) {
+  const double rounding = sight.optimality_tolerance * gradient_reference(gradient, per_range, sight.negligible);
+  const std::vector<bool> is_held = held(x, gradient, box, sight.bound_tolerance);
+  std::vector<Index> free;
+  for (Index j = 0; j < x.size(); ++j)
+    if (!is_held[static_cast<std::size_t>(j)] || std::abs(gradient(j)) <= rounding) free.push_back(j);
+  return free;
+}
+
+}  // namespace
+
+double Sight::least_change(double largest) const { return std::sqrt(optimality_tolerance * negligible * largest); }
+
+MatrixXd flat_directions(const VectorXd& residual, const MatrixXd& jacobian, const VectorXd& x, const Box& box,
+                         const Sight& sight) {
+  TWINDECK_ASSERT(jacobian.cols() == x.size() && jacobian.rows() == residual.size());
+  const MatrixXd per_range = jacobian * (box.upper - box.lower).asDiagonal();
+  const double least = sight.least_change(largest_singular_value(per_range));
+  std::vector<Index> seen;
+  std::vector<VectorXd> directions;
+  for (const Index j : movable(per_range.transpose() * residual, per_range, x, box, sight)) {
+    if (per_range.col(j).norm() > least) {
+      seen.push_back(j);
+      continue;
+    }
+    directions.emplace_back(VectorXd::Unit(x.size(), j));
+  }
+  if (!seen.empty()) {
+    const Eigen::JacobiSVD<MatrixXd> svd(per_range(Eigen::all, seen), Eigen::ComputeFullV);
+    const VectorXd& size = svd.singularValues();
+    for (Index k = 0; k < std::ssize(seen); ++k) {
+      if (k < size.size() && size(k) > least) continue;
+      VectorXd direction = VectorXd::Zero(x.size());
+      direction(seen) = svd.matrixV().col(k);
+      directions.push_back(direction);
+    }
+  }
+  MatrixXd flat(x.size(), std::ssize(directions));
+  for (std::size_t k = 0; k < directions.size(); ++k) flat.col(static_cast<Index>(k)) = directions[k];
+  return flat;
+}
+
+VectorXd nearest_in_valley(const VectorXd& residual, const MatrixXd& jacobian, const VectorXd& x, const VectorXd& wanted,
+                           const Box& box, const Sight& sight) {
+  const VectorXd range = box.upper - box.lower;
+  const MatrixXd per_range = jacobian * range.asDiagonal();
+  const double least = sight.least_change(largest_singular_value(per_range));
+  if (least == 0.0) return wanted;  // nothing changes any residual
+  const Index m = residual.size(), n = x.size();
+  MatrixXd rows(m + n, n);
+  rows << per_range, least * MatrixXd::Identity(n, n);
+  VectorXd values(m + n);
+  values << residual, least * (x - wanted).cwiseQuotient(range);
+  const Box in_ranges{box.lower.cwiseQuotient(range), box.upper.cwiseQuotient(range)};
+  const VectorXd step = bounded_gauss_newton_step(values, rows, x.cwiseQuotient(range), in_ranges, least_ridge * least * least);
+  VectorXd nearest = (x + step.cwiseProduct(range)).cwiseMax(box.lower).cwiseMin(box.upper);
+  for (Index j = 0; j < n; ++j)
+    if (per_range.col(j).norm() <= least) nearest(j) = wanted(j);
+  return nearest;
+}
+
+double distance(const VectorXd& a, const VectorXd& b, const Box& box) {
+  return (a - b).cwiseQuotient(box.upper - box.lower).norm();
+}
+
+bool equal_cost(double a, double b, double negligible) {
+  return std::abs(a - b) <= cost_left * std::max({std::abs(a), std::abs(b), negligible * negligible});
+}
+
+int preferred_end(const std::vector<EndPoint>& ends, const std::vector<int>& optimum, int cheapest, const VectorXd& wanted,
+                  const Box& box, const Sight& sight) {
+  const auto at = [&](int k) -> const EndPoint& { return ends[static_cast<std::size_t>(k)]; };
+  int nearest = -1;
+  double way = 0.0;
+  for (int k = 0; k < static_cast<int>(ends.size()); ++k) {
+    if (!at(k).converged || !equal_cost(at(k).cost, at(cheapest).cost, sight.negligible)) continue;
+    const double way_of_k = distance(at(k).x, wanted, box);
+    if (nearest >= 0 && way_of_k > way - equally_near) continue;
+    nearest = k;
+    way = way_of_k;
+  }
+  const EndPoint& end = at(nearest);
+  const bool valley = flat_directions(end.residual, end.jacobian, end.x, box, sight).cols() > 0;
+  return valley ? nearest : optimum[static_cast<std::size_t>(nearest)];
+}
+
 namespace {
 
 constexpr int most_walks = 20;           // a bent valley takes one more for each digit or two

@@ -6,10 +6,10 @@
 #include <cmath>
 #include <map>
 
-#include "updating/twins.hpp"
+#include "sensitivity/frequency_jacobian.hpp"
+#include "updating/posterior.hpp"
 
 namespace twindeck::updating {
-
 namespace {
 
 using Eigen::Index;
@@ -19,7 +19,7 @@ constexpr double as_good = 4.0;            ///< [-] of chi²: two standard devia
 constexpr double doubtful_score = 3.09;    ///< [-] of chi²: one sound measurement in a thousand is above
 constexpr double most_of_misfit = 0.4;     ///< [-] share of the squared differences that singles a channel out
 constexpr double close_correlation = 0.9;  ///< [-] from it on the deviations alone mislead
-constexpr double told_share = 0.95;        ///< [-] of a flat direction that lies in what undetermined.hpp tells
+constexpr double told_share = 0.95;        ///< [-] of a flat direction that lies in what weighing_words.hpp tells
 
 const std::string& name_of(const Weighed& weighed, Index j) {
   return weighed.loaded.system.parameters[static_cast<std::size_t>(weighed.active[static_cast<std::size_t>(j)])].name;
@@ -186,6 +186,128 @@ void say_flat_frequencies(Reporter& reporter, const Weighed& weighed, const Post
   for (const bool several : {false, true})
     for (const std::string& sentence : flat_sentences(weighed, posterior, several, "the paired frequencies"))
       reporter.say(sentence);
+}
+
+namespace {
+
+constexpr double named_share = 0.1;  // [-] of a unit direction: who takes part less is left out of a sentence
+constexpr double at_rest = 1e-6;     // [ranges] within which a parameter is at its initial value
+
+const fe::Parameter& parameter_of(const Weighed& weighed, Index j) {
+  return weighed.loaded.system.parameters[static_cast<std::size_t>(weighed.active[static_cast<std::size_t>(j)])];
+}
+
+/// The component that a direction consists of, -1 for several.
+Index only_component(const Eigen::VectorXd& direction) {
+  Index largest = 0;
+  const double size = direction.cwiseAbs().maxCoeff(&largest);
+  return direction.norm() - size < named_share * named_share * size ? largest : -1;
+}
+
+std::string sentence_of_one(const Weighed& weighed, Index j) {
+  const fe::Parameter& parameter = parameter_of(weighed, j);
+  const double value = weighed.result.theta(weighed.active[static_cast<std::size_t>(j)]);
+  const bool stays = std::abs(value - parameter.initial) <= at_rest * (parameter.upper - parameter.lower);
+  return fmt::format(
+      "the data do not determine {}: nothing that is fitted depends on it, so that {}. Leave it out of `parameters`, or "
+      "measure what depends on it",
+      parameter.name,
+      stays ? fmt::format("it stays at its initial value {:.6g}", parameter.initial)
+            : fmt::format("its value {:.6g} means nothing", value));
+}
+
+/// One direction is told with steps of one standard deviation of the ranges, as those of `FlatDirection`, the first of them
+/// upwards. Of more directions only the names are the same on every processor.
+std::string sentence_of_several(const Weighed& weighed, const Eigen::MatrixXd& directions) {
+  std::vector<std::string> names, steps;
+  double sign = 0.0;
+  for (Index j = 0; j < directions.rows(); ++j) {
+    if (directions.row(j).norm() < named_share) continue;
+    const fe::Parameter& parameter = parameter_of(weighed, j);
+    if (sign == 0.0) sign = std::copysign(1.0, directions(j, 0));
+    names.push_back(parameter.name);
+    const double step = sign * directions(j, 0) * (parameter.upper - parameter.lower) / std::sqrt(12.0);
+    steps.push_back(fmt::format("{} by {:+.3g}", parameter.name, step));
+  }
+  const bool one = directions.cols() == 1;
+  return fmt::format(
+      "flat {}: {} changes nothing that is fitted, so that the data do not determine {} one by one. Of all values that fit as "
+      "well, those nearest the initial ones are given. Update fewer of them, or measure more",
+      one ? "direction" : "directions",
+      one ? fmt::format("moving {} together", fmt::join(steps, " and "))
+          : fmt::format("moving parameters together in {} ways", directions.cols()),
+      fmt::join(names, ", "));
+}
+
+}  // namespace
+
+std::vector<std::string> undetermined_sentences(const Weighed& weighed) {
+  const Eigen::MatrixXd& flat = weighed.result.flat;
+  std::vector<std::string> sentences;
+  std::vector<Index> several;
+  for (Index k = 0; k < flat.cols(); ++k) {
+    const Index only = only_component(flat.col(k));
+    if (only >= 0)
+      sentences.push_back(sentence_of_one(weighed, only));
+    else
+      several.push_back(k);
+  }
+  if (!several.empty()) sentences.push_back(sentence_of_several(weighed, flat(Eigen::all, several)));
+  return sentences;
+}
+
+void warn_of_undetermined(Reporter& reporter, const Weighed& weighed) {
+  for (const std::string& sentence : undetermined_sentences(weighed)) reporter.warn(sentence);
+}
+
+namespace {
+
+/// Shift of each paired frequency, in its standard deviations, over half the range of each active parameter.
+Eigen::MatrixXd scaled_shifts(const dynamics::LoadedModel& loaded, const dynamics::EigenModes& modes,
+                              const std::vector<int>& active, const matching::Measured& measured,
+                              const matching::Pairing& pairing) {
+  const Eigen::MatrixXd exact = sensitivity::frequency_jacobian(loaded.system, loaded.theta, modes);
+  Eigen::MatrixXd shifts(static_cast<Index>(pairing.pairs.size()), static_cast<Index>(active.size()));
+  for (Index i = 0; i < shifts.rows(); ++i) {
+    const matching::ModePair& pair = pairing.pairs[static_cast<std::size_t>(i)];
+    for (Index j = 0; j < shifts.cols(); ++j) {
+      const int p = active[static_cast<std::size_t>(j)];
+      const fe::Parameter& parameter = loaded.system.parameters[static_cast<std::size_t>(p)];
+      shifts(i, j) = exact(pair.numerical, p) * 0.5 * (parameter.upper - parameter.lower) /
+                     measured.modes.frequency_std_Hz[pair.experimental];
+    }
+  }
+  return shifts;
+}
+
+}  // namespace
+
+std::vector<std::vector<std::string>> indistinct_parameters(const dynamics::LoadedModel& loaded,
+                                                            const dynamics::EigenModes& modes, const std::vector<int>& active,
+                                                            const matching::Measured& measured,
+                                                            const matching::Pairing& pairing) {
+  return named_sets(loaded, active, updating::indistinct_sets(scaled_shifts(loaded, modes, active, measured, pairing)));
+}
+
+std::vector<std::vector<std::string>> named_sets(const dynamics::LoadedModel& loaded, const std::vector<int>& active,
+                                                 const std::vector<std::vector<int>>& sets) {
+  std::vector<std::vector<std::string>> named;
+  for (const std::vector<int>& set : sets) {
+    std::vector<std::string>& names = named.emplace_back();
+    for (const int j : set)
+      names.push_back(loaded.system.parameters[static_cast<std::size_t>(active[static_cast<std::size_t>(j)])].name);
+  }
+  return named;
+}
+
+void warn_of_twins(Reporter& reporter, const std::vector<std::vector<std::string>>& sets, bool has_shapes) {
+  const char* mend = has_shapes ? "weigh the shapes too (residuals = [\"frequency\", \"shape\"]), or ask s9_diagnosis"
+                                : "or ask s9_diagnosis, which weighs the shapes too";
+  for (const std::vector<std::string>& names : sets)
+    reporter.warn(fmt::format(
+        "the paired frequencies cannot tell {} apart: what one does to them another does as well, so that blame may "
+        "fall on the wrong one. Update one of them, {}",
+        fmt::join(names, ", "), mend));
 }
 
 }  // namespace twindeck::updating

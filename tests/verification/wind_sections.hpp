@@ -7,7 +7,6 @@
 #include <utility>
 #include <vector>
 
-#include "aero/critical_speed.hpp"
 #include "aero/follow_mode.hpp"
 #include "test_places.hpp"
 

@@ -5,7 +5,7 @@
 #include <complex>
 #include <map>
 
-#include "matching/assignment.hpp"
+#include "matching/pairing.hpp"
 
 namespace twindeck::diagnosis {
 

@@ -1,10 +1,11 @@
+#include "matching/pairing.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <complex>
 
 #include "diagnosis/prediction/predictor.hpp"
 #include "linalg/dense.hpp"
-#include "matching/assignment.hpp"
 
 /// Which mode of the model is which measured one.
 namespace twindeck::diagnosis {

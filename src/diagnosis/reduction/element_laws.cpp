@@ -4,7 +4,6 @@
 #include <iterator>
 #include <utility>
 
-#include "diagnosis/reduction/element_sum.hpp"
 #include "fe/assembly_plans.hpp"
 
 namespace twindeck::diagnosis {

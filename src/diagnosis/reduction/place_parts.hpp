@@ -3,7 +3,6 @@
 #include <vector>
 
 #include "diagnosis/reduction/element_laws.hpp"
-#include "diagnosis/reduction/element_sum.hpp"
 #include "diagnosis/reduction/structure.hpp"
 #include "fe/assembly_elements.hpp"
 

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "diagnosis/reduction/parameter_law.hpp"
-#include "diagnosis/reduction/reduced_directions.hpp"
+#include "diagnosis/reduction/reduced_basis.hpp"
 #include "diagnosis/reduction/reduced_matrix.hpp"
 #include "diagnosis/reduction/reduction_options.hpp"
 #include "diagnosis/reduction/structure.hpp"

@@ -5,6 +5,7 @@
 #include <map>
 #include <vector>
 
+#include "core/reporter.hpp"
 #include "dynamics/eigenmodes.hpp"
 #include "fe/assembly.hpp"
 #include "fe/cable.hpp"
@@ -80,5 +81,15 @@ struct BridgeState {
 /// Values stay as they are until the parameters are changed.
 /// @param zones  >= 1
 [[nodiscard]] fe::Model with_zoned_members(fe::Model model, int zones);
+
+/// Fits corrections so that the named frequencies are the wanted ones: regularised Gauss-Newton on ln f with analytic
+/// derivatives, logarithms of the corrections as small as can be. Pulls are found anew at every step.
+/// @return parameters; status not converged if a frequency is off by more than a tenth of the 0.2 % allowed
+struct BridgeTuning {
+  Eigen::VectorXd theta;
+  Eigen::VectorXd error;  ///< relative, of the named frequencies
+  Status status;
+};
+[[nodiscard]] BridgeTuning tune(const VirtualBridge& bridge, const CampaignSettings& settings, const Reporter& reporter);
 
 }  // namespace twindeck::ponte

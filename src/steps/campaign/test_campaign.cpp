@@ -17,7 +17,7 @@
 #include "model_io/write_model.hpp"
 #include "ponte/virtual_bridge/simulated_records.hpp"
 #include "ponte/virtual_bridge/stay_records.hpp"
-#include "ponte/virtual_bridge/tuning.hpp"
+#include "ponte/virtual_bridge/virtual_bridge.hpp"
 #include "steps/campaign/campaign_files.hpp"
 #include "steps/layout/layout_files.hpp"
 #include "steps/shared/config_parts.hpp"

@@ -11,7 +11,6 @@
 #include "io/csv.hpp"
 #include "io/limits.hpp"
 #include "sensors/blind_test.hpp"
-#include "sensors/score.hpp"
 #include "sensors/setup_scores.hpp"
 #include "steps/layout/layout_files.hpp"
 #include "steps/shared/config_parts.hpp"

@@ -4,7 +4,7 @@
 
 #include "io/config.hpp"
 #include "runner/run_step.hpp"
-#include "sensors/layout_settings.hpp"
+#include "sensors/layout.hpp"
 
 namespace twindeck::steps {
 

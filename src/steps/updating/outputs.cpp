@@ -12,7 +12,6 @@
 #include "io/csv.hpp"
 #include "matching/hollow_fit.hpp"
 #include "steps/measured/comparison_tables.hpp"
-#include "updating/undetermined.hpp"
 #include "updating/weighing_words.hpp"
 
 namespace twindeck::steps {

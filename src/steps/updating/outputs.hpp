@@ -16,7 +16,7 @@ namespace twindeck::steps {
 ///  - `parameters.csv`: parameter,unit,initial_value,final_value,change_pct,lower,upper,bound (lower|upper|none), one row an
 ///    updated parameter; change_pct is empty where the initial value is 0
 ///  - `smooth_bounds.csv`: parameter,unit,final_value,smooth_bounds_value,difference_of_range: the best start's problem solved
-///    again without projection (updating/smooth_bounds.hpp); no file where no start converged
+///    again without projection (updating/problem.hpp); no file where no start converged
 ///  - `history.csv`: start,outer,iteration,cost,projected_gradient,step_norm,trust_radius and the normalised parameters, one
 ///  row
 ///    an accepted step

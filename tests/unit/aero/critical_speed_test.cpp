@@ -1,11 +1,10 @@
 // Oracles: galloping and torsional flutter of one degree of freedom in closed form; divergence of a rigid section of two
 // springs and of coordinates that all turn; Den Hartog's sum by hand; a derivative that grows as a power of V*.
-#include "aero/critical_speed.hpp"
-
 #include <gtest/gtest.h>
 
 #include <cmath>
 
+#include "aero/follow_mode.hpp"
 #include "aero/polar.hpp"
 #include "core/angle.hpp"
 #include "known_derivatives.hpp"

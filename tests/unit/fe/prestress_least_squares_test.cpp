@@ -1,10 +1,10 @@
 // Oracles: problems of one and two unknowns by hand, normal equations, the conditions of Karush, Kuhn and Tucker.
-#include "fe/prestress_least_squares.hpp"
-
 #include <gtest/gtest.h>
 
 #include <Eigen/Dense>
 #include <random>
+
+#include "fe/prestress.hpp"
 
 namespace twindeck::fe {
 namespace {

@@ -1,4 +1,6 @@
 // Oracles: statics of a rigid beam on a spring hinge and of a cantilever on stays, written out; enumeration of active sets.
+#include "fe/prestress.hpp"
+
 #include <gtest/gtest.h>
 
 #include <Eigen/Dense>
@@ -7,7 +9,6 @@
 #include "assembly_models.hpp"
 #include "core/error.hpp"
 #include "fe/assembly.hpp"
-#include "fe/prestress_least_squares.hpp"
 #include "fe/static_stage.hpp"
 
 namespace twindeck::fe {

@@ -1,7 +1,5 @@
 // Oracles: samples beyond a level counted before they are cut off; records that nothing has cut: noise and sines, as they are,
 // in coarse counts, and locked to the clock.
-#include "identification/clipping.hpp"
-
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -11,6 +9,7 @@
 #include <vector>
 
 #include "../signal/noise.hpp"
+#include "identification/quality.hpp"
 
 namespace twindeck::identification {
 namespace {

@@ -1,6 +1,4 @@
 // Oracles: samples put into noise by hand; records of what does move a structure: blows, free decays, an earthquake.
-#include "identification/lone_sample.hpp"
-
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -9,6 +7,7 @@
 #include <numbers>
 
 #include "../signal/noise.hpp"
+#include "identification/quality.hpp"
 
 namespace twindeck::identification {
 namespace {

@@ -1,10 +1,10 @@
 // Oracle: modes, clusters and poles written by hand; a channel of acceleration that was not scaled keeps its shape.
-#include "identification/merging_check.hpp"
-
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <limits>
+
+#include "identification/merge_preger.hpp"
 
 namespace twindeck::identification {
 namespace {

@@ -1,9 +1,9 @@
 // Oracles: harmonics of a string, n c; hand-made lists.
-#include "identification/numbering.hpp"
-
 #include <gtest/gtest.h>
 
 #include <algorithm>
+
+#include "identification/tension.hpp"
 
 namespace twindeck::identification {
 namespace {

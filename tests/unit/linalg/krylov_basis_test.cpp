@@ -1,10 +1,10 @@
 // An M-orthonormal basis. Oracles: its properties (Q'MQ = 1, W = Q R, orthogonality) and Pythagoras.
-#include "linalg/krylov_basis.hpp"
-
 #include <gtest/gtest.h>
 
 #include <Eigen/Dense>
 #include <random>
+
+#include "linalg/block_lanczos.hpp"
 
 namespace twindeck::linalg {
 namespace {

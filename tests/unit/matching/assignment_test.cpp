@@ -1,10 +1,10 @@
-#include "matching/assignment.hpp"
-
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <limits>
 #include <numeric>
+
+#include "matching/pairing.hpp"
 
 namespace {
 

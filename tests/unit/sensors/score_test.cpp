@@ -1,9 +1,9 @@
-#include "sensors/score.hpp"
-
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <limits>
+
+#include "sensors/setup_scores.hpp"
 
 namespace twindeck::sensors {
 namespace {

@@ -7,7 +7,6 @@
 
 #include "core/error.hpp"
 #include "core/random.hpp"
-#include "sensors/score.hpp"
 #include "sensors/setup_scores.hpp"
 
 namespace twindeck::sensors {

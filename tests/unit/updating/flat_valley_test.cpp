@@ -1,9 +1,9 @@
 // Oracles: residuals whose valleys are known in closed form; points of a plane nearest to a point; hand-made ends.
-#include "updating/flat_valley.hpp"
-
 #include <gtest/gtest.h>
 
 #include <cmath>
+
+#include "updating/valley_walk.hpp"
 
 namespace twindeck::updating {
 namespace {

@@ -8,7 +8,7 @@
 
 #include "chain.hpp"
 #include "updating/joint_map.hpp"
-#include "updating/regularised.hpp"
+#include "updating/leave_one_out.hpp"
 
 namespace twindeck::updating {
 namespace {

@@ -1,10 +1,10 @@
 // The smooth map beside the bounded search. Oracles: the closed-form optimum of Rosenbrock's function on a bound; the bounded
 // search, whose optimum is the enumerated one (problem_test.cpp), on correlated columns with several active bounds.
-#include "updating/smooth_bounds.hpp"
-
 #include <gtest/gtest.h>
 
 #include <random>
+
+#include "updating/problem.hpp"
 
 namespace twindeck::updating {
 namespace {

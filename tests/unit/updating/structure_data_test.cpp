@@ -1,10 +1,10 @@
 // What is known of a structure. Oracles: hand calculations of masses, forces and deviations; central differences; symmetry in
 // the displacement's sign.
-#include "updating/structure_data.hpp"
-
 #include <gtest/gtest.h>
 
 #include <cmath>
+
+#include "updating/structure_fit.hpp"
 
 namespace twindeck::updating {
 namespace {

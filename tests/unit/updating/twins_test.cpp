@@ -1,10 +1,9 @@
 // Oracle: two masses between walls, symmetric (measured_chain.hpp). Both end springs move both frequencies alike. The middle
 // one moves the second frequency alone.
-#include "updating/twins.hpp"
-
 #include <gtest/gtest.h>
 
 #include "measured_chain.hpp"
+#include "updating/weighing_words.hpp"
 
 namespace twindeck::updating {
 namespace {

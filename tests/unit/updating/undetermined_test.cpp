@@ -1,9 +1,8 @@
 // Oracles: chains whose frequencies are known not to depend on a parameter, or on one combination of them only.
-#include "updating/undetermined.hpp"
-
 #include <gtest/gtest.h>
 
 #include "measured_chain.hpp"
+#include "updating/weighing_words.hpp"
 
 namespace twindeck::updating {
 namespace {

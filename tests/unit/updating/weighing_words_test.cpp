@@ -113,7 +113,7 @@ TEST(SayWeighing, TellsFlatDirectionsOfOneAndOfSeveral) {
   EXPECT_TRUE(holds(h.heard().warned, "moving left by +0.2 and right by -0.2 together"));
 }
 
-// What the data do not see at all is told by another sentence (undetermined.hpp), not twice.
+// What the data do not see at all is told by another sentence (weighing_words.hpp), not twice.
 TEST(SayWeighing, LeavesOutFlatDirectionsThatAreToldAlready) {
   ByHand h;
   h.result.scale = Eigen::Vector2d(1.0, 2.0);

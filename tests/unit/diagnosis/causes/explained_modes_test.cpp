@@ -1,9 +1,9 @@
 // Oracle: the likelihood written out for a model of two modes.
-#include "diagnosis/causes/explained_modes.hpp"
-
 #include <gtest/gtest.h>
 
 #include <cmath>
+
+#include "diagnosis/causes/swinging_stays.hpp"
 
 namespace twindeck::tests {
 namespace {

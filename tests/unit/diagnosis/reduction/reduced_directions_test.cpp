@@ -1,7 +1,7 @@
 // Oracle: V' b with the whole V.
-#include "diagnosis/reduction/reduced_directions.hpp"
-
 #include <gtest/gtest.h>
+
+#include "diagnosis/reduction/reduced_basis.hpp"
 
 namespace twindeck::tests {
 namespace {
