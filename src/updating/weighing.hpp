@@ -33,6 +33,10 @@ struct Weighed {
 
   /// (n_active) the published values.
   [[nodiscard]] Eigen::VectorXd normalised() const;
+  /// The j-th updated one.
+  [[nodiscard]] const fe::Parameter& parameter(Eigen::Index j) const {
+    return loaded.system.parameters[static_cast<std::size_t>(active[static_cast<std::size_t>(j)])];
+  }
 };
 
 }  // namespace twindeck::updating

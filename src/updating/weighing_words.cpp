@@ -21,10 +21,6 @@ constexpr double most_of_misfit = 0.4;     ///< [-] share of the squared differe
 constexpr double close_correlation = 0.9;  ///< [-] from it on the deviations alone mislead
 constexpr double told_share = 0.95;        ///< [-] of a flat direction that lies in what weighing_words.hpp tells
 
-const std::string& name_of(const Weighed& weighed, Index j) {
-  return weighed.loaded.system.parameters[static_cast<std::size_t>(weighed.active[static_cast<std::size_t>(j)])].name;
-}
-
 std::vector<std::vector<std::string>> sets_at(const Weighed& weighed, const Eigen::MatrixXd& jacobian) {
   if (jacobian.size() == 0) return {};
   const Eigen::VectorXd half = 0.5 * (weighed.result.box.upper - weighed.result.box.lower);
@@ -35,15 +31,15 @@ void say_parameters(Reporter& reporter, const Weighed& weighed, const Posterior&
   for (Index j = 0; j < posterior.std.size(); ++j) {
     const double value = weighed.result.theta(weighed.active[static_cast<std::size_t>(j)]);
     reporter.say(posterior.is_held[static_cast<std::size_t>(j)]
-                     ? fmt::format("{:<14} {:>13.6g}  held by its bound", name_of(weighed, j), value)
-                     : fmt::format("{:<14} {:>13.6g} +- {:.2g} (std_with_misfit)", name_of(weighed, j), value,
+                     ? fmt::format("{:<14} {:>13.6g}  held by its bound", weighed.parameter(j).name, value)
+                     : fmt::format("{:<14} {:>13.6g} +- {:.2g} (std_with_misfit)", weighed.parameter(j).name, value,
                                    posterior.std[j] * posterior.misfit()));
   }
   for (Index j = 0; j < posterior.std.size(); ++j)
     for (Index k = j + 1; k < posterior.std.size(); ++k)
       if (std::abs(posterior.correlation(j, k)) >= close_correlation)
-        reporter.say(fmt::format("{} and {} are known together only: correlation {:+.3f}", name_of(weighed, j),
-                                 name_of(weighed, k), posterior.correlation(j, k)));
+        reporter.say(fmt::format("{} and {} are known together only: correlation {:+.3f}", weighed.parameter(j).name,
+                                 weighed.parameter(k).name, posterior.correlation(j, k)));
 }
 
 /// Parameters that the rows cannot tell apart, at the initial values or at the optimum, named in sentences.
@@ -80,7 +76,7 @@ std::vector<std::string> flat_sentences(const Weighed& weighed, const Posterior&
     std::vector<std::string> parts;
     for (Index j = 0; j < flat.step.size(); ++j)
       if (std::abs(flat.step[j]) >= named_component * posterior.prior_std[j])
-        parts.push_back(fmt::format("{} by {:+.3g}", name_of(weighed, j), flat.step[j]));
+        parts.push_back(fmt::format("{} by {:+.3g}", weighed.parameter(j).name, flat.step[j]));
     if ((parts.size() > 1) != several) continue;
     sentences.push_back(fmt::format(
         "flat direction: moving {}{} changes {} by {:.2g} standard deviations only; {}", fmt::join(parts, " and "),
@@ -100,7 +96,7 @@ std::vector<std::string> rival_sentences(const Weighed& weighed) {
     if (k == result.starts.at(static_cast<std::size_t>(result.best)).optimum || 2.0 * start.cost > least + as_good) continue;
     std::vector<std::string> values;
     for (Index j = 0; j < start.theta.size(); ++j)
-      values.push_back(fmt::format("{} {:.4g}", name_of(weighed, j), start.theta[j]));
+      values.push_back(fmt::format("{} {:.4g}", weighed.parameter(j).name, start.theta[j]));
     sentences.push_back(fmt::format("another optimum is as good (chi² {:.4g} against {:.4g}): {}", 2.0 * start.cost, least,
                                     fmt::join(values, ", ")));
   }
@@ -193,10 +189,6 @@ namespace {
 constexpr double named_share = 0.1;  // [-] of a unit direction: who takes part less is left out of a sentence
 constexpr double at_rest = 1e-6;     // [ranges] within which a parameter is at its initial value
 
-const fe::Parameter& parameter_of(const Weighed& weighed, Index j) {
-  return weighed.loaded.system.parameters[static_cast<std::size_t>(weighed.active[static_cast<std::size_t>(j)])];
-}
-
 /// The component that a direction consists of, -1 for several.
 Index only_component(const Eigen::VectorXd& direction) {
   Index largest = 0;
@@ -205,7 +197,7 @@ Index only_component(const Eigen::VectorXd& direction) {
 }
 
 std::string sentence_of_one(const Weighed& weighed, Index j) {
-  const fe::Parameter& parameter = parameter_of(weighed, j);
+  const fe::Parameter& parameter = weighed.parameter(j);
   const double value = weighed.result.theta(weighed.active[static_cast<std::size_t>(j)]);
   const bool stays = std::abs(value - parameter.initial) <= at_rest * (parameter.upper - parameter.lower);
   return fmt::format(
@@ -223,7 +215,7 @@ std::string sentence_of_several(const Weighed& weighed, const Eigen::MatrixXd& d
   double sign = 0.0;
   for (Index j = 0; j < directions.rows(); ++j) {
     if (directions.row(j).norm() < named_share) continue;
-    const fe::Parameter& parameter = parameter_of(weighed, j);
+    const fe::Parameter& parameter = weighed.parameter(j);
     if (sign == 0.0) sign = std::copysign(1.0, directions(j, 0));
     names.push_back(parameter.name);
     const double step = sign * directions(j, 0) * (parameter.upper - parameter.lower) / std::sqrt(12.0);

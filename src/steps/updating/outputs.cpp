@@ -205,15 +205,11 @@ std::vector<matching::ComparisonRow> write_another(const std::string& name, cons
   return own;
 }
 
-const fe::Parameter& parameter_of(const updating::Weighed& weighed, Index j) {
-  return weighed.loaded.system.parameters[static_cast<std::size_t>(weighed.active[static_cast<std::size_t>(j)])];
-}
-
 void write_posterior(const updating::Weighed& weighed, const updating::Posterior& posterior,
                      const std::filesystem::path& file) {
   io::CsvWriter csv({"parameter", "unit", "final_value", "std", "std_with_misfit", "prior_std", "held", "label"});
   for (Index j = 0; j < posterior.std.size(); ++j) {
-    const fe::Parameter& parameter = parameter_of(weighed, j);
+    const fe::Parameter& parameter = weighed.parameter(j);
     const bool held = posterior.is_held[static_cast<std::size_t>(j)];
     const std::optional<double> std = held ? std::nullopt : std::optional<double>(posterior.std[j]);
     csv.row({parameter.name, parameter.unit, weighed.result.theta(weighed.active[static_cast<std::size_t>(j)]), std,
@@ -229,7 +225,7 @@ void write_correlations(const updating::Weighed& weighed, const updating::Poster
   for (Index j = 0; j < posterior.std.size(); ++j)
     for (Index k = j + 1; k < posterior.std.size(); ++k)
       if (!std::isnan(posterior.correlation(j, k)))
-        csv.row({parameter_of(weighed, j).name, parameter_of(weighed, k).name, posterior.correlation(j, k)});
+        csv.row({weighed.parameter(j).name, weighed.parameter(k).name, posterior.correlation(j, k)});
   csv.save(file);
 }
 
