@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "fe/beam_tapered.hpp"
+#include "fe/beam.hpp"
 #include "fe/elements.hpp"
 #include "fe/model.hpp"
 #include "fe/shell_triangle.hpp"

@@ -60,7 +60,7 @@ struct Element {
   std::string group;  ///< "foot_top_chord", "slab_foot_B", "stay_44": the unit of parameters and of diagnosis
   int material = -1;
   int section = -1;        ///< none (-1) for a solid
-  int section2 = -1;       ///< beams: section at the second end of a tapered one (see beam_tapered.hpp); -1 = uniform
+  int section2 = -1;       ///< beams: section at the second end of a tapered one (see beam.hpp); -1 = uniform
   std::vector<int> nodes;  ///< 2 (beam, bar, stay), 3 or 4 (shell, anticlockwise), 4 or 8 (solid.hpp) or 10 or 20
                            ///< (solid_quadratic.hpp)
   Eigen::Vector3d orientation = Eigen::Vector3d::Zero();  ///< beams: local z lies in the plane of axis and this vector, as near

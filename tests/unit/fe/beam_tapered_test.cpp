@@ -1,5 +1,3 @@
-#include "fe/beam_tapered.hpp"
-
 #include <gtest/gtest.h>
 
 #include <Eigen/Dense>
@@ -9,6 +7,7 @@
 #include "assembly_models.hpp"
 #include "core/error.hpp"
 #include "fe/assembly.hpp"
+#include "fe/beam.hpp"
 #include "fe/beam_frame.hpp"
 #include "fe/static_stage.hpp"
 
