@@ -5,7 +5,6 @@
 #include "identification/stays.hpp"
 #include "records/inspect.hpp"
 #include "runner/run_step.hpp"
-#include "steps/identification/identification_config.hpp"
 #include "steps/identification/inputs.hpp"
 #include "steps/identification/outputs.hpp"
 

@@ -37,10 +37,7 @@ Status run(const steps::SensitivityConfig& config, const dynamics::ReadModel& re
   const sensitivity::Identifiability identified = sensitivity::identifiability(scaled, config.singular_value_cutoff);
 
   // 4. Tables, and the outcome in words.
-  steps::write_sensitivity(loaded.system.parameters, found, context.out / "sensitivity.csv");
-  steps::write_selection(loaded.system.parameters, selection, config, context.out / "selection.csv");
-  steps::write_singular_values(identified, config, context.out / "singular_values.csv");
-  steps::write_identifiability(loaded.system.parameters, identified, config, context.out / "identifiability.csv");
+  steps::write_tables(loaded.system.parameters, found, selection, identified, config, context.out);
   for (const std::string& line : steps::sensitivity_report(loaded.system.parameters, found, selection, identified, config)) {
     context.say(line);
   }

@@ -181,6 +181,119 @@ std::string listed(const diagnosis::Effect& effect, bool several_states, bool in
   return text;
 }
 
+/// residuals.csv: `type,mode,channel,condition,held_out,value,std,before,after,residual_before,residual_after,beyond_before,
+/// beyond_after`: predictions in the row's own unit; residuals over the standard deviation of identification; beyond: 1 where
+/// it lies outside the limit that all rows together keep with 99 % (Sidak).
+void write_residuals(const Inference& inference, const Diagnosis& result, const std::filesystem::path& file) {
+  io::CsvWriter csv({"type", "mode", "channel", "condition", "held_out", "value", "std", "before", "after", "residual_before",
+                     "residual_after", "beyond_before", "beyond_after"});
+  const auto& map = inference.map();
+  const VectorXd e0 = standardised_residuals(inference, result.before), e1 = standardised_residuals(inference, result.after);
+  const double limit = diagnosis::sidak_limit(map.features().rows.size());
+  for (std::size_t r = 0; r < map.features().rows.size(); ++r) {
+    const Row& row = map.features().rows[r];
+    const auto i = static_cast<Index>(r);
+    csv.row({name_of(row.type), row.mode, channel_of(inference, row),
+             map.features().conditions[static_cast<std::size_t>(row.condition)].name, row.held_out ? 1 : 0, row.value, row.std,
+             own_unit(row, result.before.all.g[i]), own_unit(row, result.after.all.g[i]), e0[i], e1[i],
+             std::abs(e0[i]) > limit ? 1 : 0, std::abs(e1[i]) > limit ? 1 : 0});
+  }
+  csv.save(file);
+}
+
+/// hypotheses.csv: `cause,location,log_odds,screen,signature_sigma,status`: every entry of the catalogue in the order of its
+/// odds, and the families that these data can't see with the reason.
+void write_hypotheses(const Diagnosis& result, const std::vector<diagnosis::Invisible>& invisible,
+                      const std::filesystem::path& file) {
+  io::CsvWriter csv({"cause", "location", "log_odds", "screen", "signature_sigma", "status"});
+  for (const auto& scored : result.ranking) {
+    csv.row({scored.candidate->hypothesis->id, scored.candidate->location, scored.log_odds, scored.screen,
+             scored.signature.norm(), scored.fitted ? "fitted" : "screened"});
+  }
+  for (const auto& none : invisible) csv.row({none.hypothesis, "", "", "", "", "not visible: " + none.reason});
+  csv.save(file);
+}
+
+/// gain.csv: `type,mode,condition,rows,before,after`: RMS of standardised residuals of held-out rows by kind.
+void write_gain(const Inference& inference, const Diagnosis& result, const std::filesystem::path& file) {
+  io::CsvWriter csv({"type", "mode", "condition", "rows", "before", "after"});
+  const auto& features = inference.map().features();
+  const VectorXd e0 = standardised_residuals(inference, result.before), e1 = standardised_residuals(inference, result.after);
+  struct Sum {
+    int rows = 0;
+    double before = 0.0, after = 0.0;
+  };
+  std::map<std::tuple<std::string, std::string, std::string>, Sum> sums;
+  for (const int r : inference.held_out()) {
+    const Row& row = features.rows[static_cast<std::size_t>(r)];
+    Sum& sum = sums[{name_of(row.type), row.mode, features.conditions[static_cast<std::size_t>(row.condition)].name}];
+    sum.rows += 1;
+    sum.before += e0[r] * e0[r];
+    sum.after += e1[r] * e1[r];
+  }
+  for (const auto& [key, sum] : sums)
+    csv.row({std::get<0>(key), std::get<1>(key), std::get<2>(key), sum.rows, std::sqrt(sum.before / sum.rows),
+             std::sqrt(sum.after / sum.rows)});
+  csv.save(file);
+}
+
+/// parameters.csv: `unknown,before,after,shrinkage,bound`: in units of the prior deviation; shrinkage 1 - posterior variance.
+void write_unknowns(const Inference& inference, const Diagnosis& result, const std::filesystem::path& file) {
+  io::CsvWriter csv({"unknown", "before", "after", "shrinkage", "bound"});
+  const auto& nuisances = inference.map().nuisances();
+  const Eigen::MatrixXd& j = result.after.map.jacobian;
+  // Posterior covariance of x: I - J' Sigma_tot^-1 J.
+  const Eigen::MatrixXd l = result.after.total_factor.triangularView<Eigen::Lower>().solve(j);
+  for (std::size_t i = 0; i < nuisances.size(); ++i) {
+    const auto k = static_cast<Index>(i);
+    const bool bounded =
+        std::find(result.on_bounds.begin(), result.on_bounds.end(), nuisances[i].name) != result.on_bounds.end();
+    csv.row({nuisances[i].name, result.before.map.x[k], result.after.map.x[k], l.col(k).squaredNorm(),
+             bounded ? "on bound before" : ""});
+  }
+  csv.save(file);
+}
+
+/// pairs.csv: `mode,condition,measured_Hz,before_Hz,after_Hz,mac_before,mac_after`: each measured mode with the model's that it
+/// is compared with, without and with the causes; MAC over the channels of that mode.
+void write_pairs(const Inference& inference, const Diagnosis& result, const std::filesystem::path& file) {
+  io::CsvWriter csv({"mode", "condition", "measured_Hz", "before_Hz", "after_Hz", "mac_before", "mac_after"});
+  const auto& map = inference.map();
+  const auto known = [](double mac) { return std::isfinite(mac) ? std::optional<double>(mac) : std::nullopt; };
+  for (std::size_t m = 0; m < map.measured_modes().size(); ++m) {
+    const diagnosis::MeasuredMode& mode = map.measured_modes()[m];
+    csv.row({mode.label, map.features().conditions[static_cast<std::size_t>(mode.condition)].name, mode.frequency_Hz,
+             result.before.all.frequency_Hz[m], result.after.all.frequency_Hz[m], known(result.before.all.mac[m]),
+             known(result.after.all.mac[m])});
+  }
+  csv.save(file);
+}
+
+/// misfit.csv: `by,name,rows,mean_square_before,mean_square_after`: of standardised residuals by type, condition, mode,
+/// channel.
+void write_misfit(const Inference& inference, const Diagnosis& result, const std::filesystem::path& file) {
+  io::CsvWriter csv({"by", "name", "rows", "mean_square_before", "mean_square_after"});
+  const auto& features = inference.map().features();
+  const VectorXd e0 = standardised_residuals(inference, result.before), e1 = standardised_residuals(inference, result.after);
+  for (const std::string by : {"type", "condition", "mode", "channel"}) {
+    std::map<std::string, std::array<double, 3>> sums;
+    for (std::size_t r = 0; r < features.rows.size(); ++r) {
+      const Row& row = features.rows[r];
+      const std::string name = by == "type"        ? name_of(row.type)
+                               : by == "condition" ? features.conditions[static_cast<std::size_t>(row.condition)].name
+                               : by == "mode"      ? row.mode
+                                                   : channel_of(inference, row);
+      if (name.empty()) continue;
+      const auto i = static_cast<Index>(r);
+      sums[name][0] += 1.0;
+      sums[name][1] += e0[i] * e0[i];
+      sums[name][2] += e1[i] * e1[i];
+    }
+    for (const auto& [name, sum] : sums) csv.row({by, name, static_cast<long>(sum[0]), sum[1] / sum[0], sum[2] / sum[0]});
+  }
+  csv.save(file);
+}
+
 }  // namespace
 
 void write_diagnosis(const Diagnosis& result, const std::vector<diagnosis::Finding>& account, const Told& told,
@@ -227,106 +340,14 @@ void write_diagnosis(const Diagnosis& result, const std::vector<diagnosis::Findi
   io::write_file_atomically(file, json.dump(1) + "\n");
 }
 
-void write_residuals(const Inference& inference, const Diagnosis& result, const std::filesystem::path& file) {
-  io::CsvWriter csv({"type", "mode", "channel", "condition", "held_out", "value", "std", "before", "after", "residual_before",
-                     "residual_after", "beyond_before", "beyond_after"});
-  const auto& map = inference.map();
-  const VectorXd e0 = standardised_residuals(inference, result.before), e1 = standardised_residuals(inference, result.after);
-  const double limit = diagnosis::sidak_limit(map.features().rows.size());
-  for (std::size_t r = 0; r < map.features().rows.size(); ++r) {
-    const Row& row = map.features().rows[r];
-    const auto i = static_cast<Index>(r);
-    csv.row({name_of(row.type), row.mode, channel_of(inference, row),
-             map.features().conditions[static_cast<std::size_t>(row.condition)].name, row.held_out ? 1 : 0, row.value, row.std,
-             own_unit(row, result.before.all.g[i]), own_unit(row, result.after.all.g[i]), e0[i], e1[i],
-             std::abs(e0[i]) > limit ? 1 : 0, std::abs(e1[i]) > limit ? 1 : 0});
-  }
-  csv.save(file);
-}
-
-void write_hypotheses(const Diagnosis& result, const std::vector<diagnosis::Invisible>& invisible,
-                      const std::filesystem::path& file) {
-  io::CsvWriter csv({"cause", "location", "log_odds", "screen", "signature_sigma", "status"});
-  for (const auto& scored : result.ranking) {
-    csv.row({scored.candidate->hypothesis->id, scored.candidate->location, scored.log_odds, scored.screen,
-             scored.signature.norm(), scored.fitted ? "fitted" : "screened"});
-  }
-  for (const auto& none : invisible) csv.row({none.hypothesis, "", "", "", "", "not visible: " + none.reason});
-  csv.save(file);
-}
-
-void write_gain(const Inference& inference, const Diagnosis& result, const std::filesystem::path& file) {
-  io::CsvWriter csv({"type", "mode", "condition", "rows", "before", "after"});
-  const auto& features = inference.map().features();
-  const VectorXd e0 = standardised_residuals(inference, result.before), e1 = standardised_residuals(inference, result.after);
-  struct Sum {
-    int rows = 0;
-    double before = 0.0, after = 0.0;
-  };
-  std::map<std::tuple<std::string, std::string, std::string>, Sum> sums;
-  for (const int r : inference.held_out()) {
-    const Row& row = features.rows[static_cast<std::size_t>(r)];
-    Sum& sum = sums[{name_of(row.type), row.mode, features.conditions[static_cast<std::size_t>(row.condition)].name}];
-    sum.rows += 1;
-    sum.before += e0[r] * e0[r];
-    sum.after += e1[r] * e1[r];
-  }
-  for (const auto& [key, sum] : sums)
-    csv.row({std::get<0>(key), std::get<1>(key), std::get<2>(key), sum.rows, std::sqrt(sum.before / sum.rows),
-             std::sqrt(sum.after / sum.rows)});
-  csv.save(file);
-}
-
-void write_unknowns(const Inference& inference, const Diagnosis& result, const std::filesystem::path& file) {
-  io::CsvWriter csv({"unknown", "before", "after", "shrinkage", "bound"});
-  const auto& nuisances = inference.map().nuisances();
-  const Eigen::MatrixXd& j = result.after.map.jacobian;
-  // Posterior covariance of x: I - J' Sigma_tot^-1 J.
-  const Eigen::MatrixXd l = result.after.total_factor.triangularView<Eigen::Lower>().solve(j);
-  for (std::size_t i = 0; i < nuisances.size(); ++i) {
-    const auto k = static_cast<Index>(i);
-    const bool bounded =
-        std::find(result.on_bounds.begin(), result.on_bounds.end(), nuisances[i].name) != result.on_bounds.end();
-    csv.row({nuisances[i].name, result.before.map.x[k], result.after.map.x[k], l.col(k).squaredNorm(),
-             bounded ? "on bound before" : ""});
-  }
-  csv.save(file);
-}
-
-void write_pairs(const Inference& inference, const Diagnosis& result, const std::filesystem::path& file) {
-  io::CsvWriter csv({"mode", "condition", "measured_Hz", "before_Hz", "after_Hz", "mac_before", "mac_after"});
-  const auto& map = inference.map();
-  const auto known = [](double mac) { return std::isfinite(mac) ? std::optional<double>(mac) : std::nullopt; };
-  for (std::size_t m = 0; m < map.measured_modes().size(); ++m) {
-    const diagnosis::MeasuredMode& mode = map.measured_modes()[m];
-    csv.row({mode.label, map.features().conditions[static_cast<std::size_t>(mode.condition)].name, mode.frequency_Hz,
-             result.before.all.frequency_Hz[m], result.after.all.frequency_Hz[m], known(result.before.all.mac[m]),
-             known(result.after.all.mac[m])});
-  }
-  csv.save(file);
-}
-
-void write_misfit(const Inference& inference, const Diagnosis& result, const std::filesystem::path& file) {
-  io::CsvWriter csv({"by", "name", "rows", "mean_square_before", "mean_square_after"});
-  const auto& features = inference.map().features();
-  const VectorXd e0 = standardised_residuals(inference, result.before), e1 = standardised_residuals(inference, result.after);
-  for (const std::string by : {"type", "condition", "mode", "channel"}) {
-    std::map<std::string, std::array<double, 3>> sums;
-    for (std::size_t r = 0; r < features.rows.size(); ++r) {
-      const Row& row = features.rows[r];
-      const std::string name = by == "type"        ? name_of(row.type)
-                               : by == "condition" ? features.conditions[static_cast<std::size_t>(row.condition)].name
-                               : by == "mode"      ? row.mode
-                                                   : channel_of(inference, row);
-      if (name.empty()) continue;
-      const auto i = static_cast<Index>(r);
-      sums[name][0] += 1.0;
-      sums[name][1] += e0[i] * e0[i];
-      sums[name][2] += e1[i] * e1[i];
-    }
-    for (const auto& [name, sum] : sums) csv.row({by, name, static_cast<long>(sum[0]), sum[1] / sum[0], sum[2] / sum[0]});
-  }
-  csv.save(file);
+void write_tables(const diagnosis::Inference& inference, const diagnosis::Instantiated& entries,
+                  const diagnosis::Diagnosis& result, const std::filesystem::path& out) {
+  write_residuals(inference, result, out / "residuals.csv");
+  write_hypotheses(result, entries.invisible, out / "hypotheses.csv");
+  write_gain(inference, result, out / "gain.csv");
+  write_pairs(inference, result, out / "pairs.csv");
+  write_misfit(inference, result, out / "misfit.csv");
+  write_unknowns(inference, result, out / "parameters.csv");
 }
 
 void write_plan(const Inference& inference, const std::vector<diagnosis::Invisible>& invisible,

@@ -28,26 +28,10 @@ struct Told {
 /// @param check  of the winner against the full model
 void write_diagnosis(const diagnosis::Diagnosis& result, const std::vector<diagnosis::Finding>& account, const Told& told,
                      const diagnosis::FullCheck& check, double seconds, const std::filesystem::path& file);
-/// residuals.csv: `type,mode,channel,condition,held_out,value,std,before,after,residual_before,residual_after,beyond_before,
-/// beyond_after`: predictions in the row's own unit; residuals over the standard deviation of identification; beyond: 1 where
-/// it lies outside the limit that all rows together keep with 99 % (Sidak).
-void write_residuals(const diagnosis::Inference& inference, const diagnosis::Diagnosis& result,
-                     const std::filesystem::path& file);
-/// hypotheses.csv: `cause,location,log_odds,screen,signature_sigma,status`: every entry of the catalogue in the order of its
-/// odds, and the families that these data can't see with the reason.
-void write_hypotheses(const diagnosis::Diagnosis& result, const std::vector<diagnosis::Invisible>& invisible,
-                      const std::filesystem::path& file);
-/// gain.csv: `type,mode,condition,rows,before,after`: RMS of standardised residuals of held-out rows by kind.
-void write_gain(const diagnosis::Inference& inference, const diagnosis::Diagnosis& result, const std::filesystem::path& file);
-/// parameters.csv: `unknown,before,after,shrinkage,bound`: in units of the prior deviation; shrinkage 1 - posterior variance.
-void write_unknowns(const diagnosis::Inference& inference, const diagnosis::Diagnosis& result,
-                    const std::filesystem::path& file);
-/// pairs.csv: `mode,condition,measured_Hz,before_Hz,after_Hz,mac_before,mac_after`: each measured mode with the model's that it
-/// is compared with, without and with the causes; MAC over the channels of that mode.
-void write_pairs(const diagnosis::Inference& inference, const diagnosis::Diagnosis& result, const std::filesystem::path& file);
-/// misfit.csv: `by,name,rows,mean_square_before,mean_square_after`: of standardised residuals by type, condition, mode,
-/// channel.
-void write_misfit(const diagnosis::Inference& inference, const diagnosis::Diagnosis& result, const std::filesystem::path& file);
+/// residuals.csv, hypotheses.csv, gain.csv, pairs.csv, misfit.csv, parameters.csv.
+void write_tables(const diagnosis::Inference& inference, const diagnosis::Instantiated& entries,
+                  const diagnosis::Diagnosis& result, const std::filesystem::path& out);
+
 /// plan.csv: `cause,location,unknown,smallest,unit,sigma,best_imitation,separation_sigma,status`.
 void write_plan(const diagnosis::Inference& inference, const std::vector<diagnosis::Invisible>& invisible,
                 const std::filesystem::path& file);

@@ -1,19 +1,303 @@
 #include "steps/diagnosis/run.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
+#include <algorithm>
 #include <chrono>
+#include <limits>
+#include <set>
 
+#include "core/error.hpp"
+#include "diagnosis/bar_stays_effect.hpp"
+#include "diagnosis/causes/catalogue.hpp"
+#include "diagnosis/evidence.hpp"
+#include "diagnosis/features/features.hpp"
+#include "diagnosis/files/catalogue_files.hpp"
+#include "diagnosis/files/claims_file.hpp"
+#include "diagnosis/files/damper_places.hpp"
+#include "diagnosis/files/feature_files.hpp"
+#include "diagnosis/files/load_test_files.hpp"
 #include "diagnosis/files/measurement_corrections.hpp"
 #include "diagnosis/law_diagnosis.hpp"
 #include "diagnosis/paired_check.hpp"
+#include "diagnosis/reduction/basis_modes.hpp"
+#include "diagnosis/reduction/diagnosed_model.hpp"
+#include "diagnosis/reduction/structure.hpp"
+#include "dynamics/unit_slips.hpp"
+#include "io/spreadsheet.hpp"
+#include "matching/mode_name.hpp"
+#include "matching/shapes_at_sensors.hpp"
+#include "runner/shipped_files.hpp"
+#include "runner/study.hpp"
 #include "steps/diagnosis/outputs.hpp"
-#include "steps/diagnosis/setup.hpp"
+#include "steps/measured/measured_input.hpp"
+#include "steps/shared/model_source.hpp"
 
 /// The step from its inputs to its files, and what it says at the end.
 namespace twindeck::steps {
-
 namespace {
+
+/// What a diagnosis reads, before anything is solved.
+struct DiagnosisFiles {
+  std::filesystem::path folder;                ///< of the features
+  diagnosis::FeatureSet features;              ///< the rows in use
+  std::vector<diagnosis::Row> stay_rows;       ///< all frequencies of stays, in use or not
+  std::vector<records::Correction> corrected;  ///< what of the features --correct has put right
+  std::vector<matching::Channel> channels;
+  std::vector<diagnosis::Claim> claims;
+  std::vector<diagnosis::Hypothesis> catalogue;
+  dynamics::ReadModel model;
+  std::vector<diagnosis::DamperMove> moves;
+};
+
+/// Everything that a diagnosis works on.
+struct DiagnosisInputs {
+  std::shared_ptr<diagnosis::DiagnosedModel> model;
+  diagnosis::Structure structure;  ///< borrows from `model`
+  diagnosis::Places places;
+  std::unique_ptr<diagnosis::ReducedModel> reduced;
+  long basis_modes = 0;  ///< that `reduced` was asked for
+  diagnosis::FeatureSet features;
+  std::vector<records::Correction> corrected;  ///< what of the features --correct has put right
+  std::vector<diagnosis::Hypothesis> catalogue;
+  std::vector<diagnosis::Finding> account;             ///< what claims and rows say before any odds
+  diagnosis::LoadTestFiles load_tests;                 ///< where loads and gauges stand
+  std::optional<diagnosis::BarStaysEffect> bar_stays;  ///< where stays swing that the model has as bars
+  /// What the causes are put into: `model`, with the stays that swing as cables.
+  std::shared_ptr<const diagnosis::DiagnosedModel> extended;
+};
+
+/// Measured frequencies of each condition.
+std::vector<dynamics::MeasuredFrequencies> frequencies_of(const diagnosis::FeatureSet& features) {
+  std::vector<dynamics::MeasuredFrequencies> conditions(features.conditions.size());
+  for (const diagnosis::Row& row : features.rows) {
+    if (row.type != diagnosis::RowType::frequency) continue;
+    dynamics::MeasuredFrequencies& found = conditions[static_cast<std::size_t>(row.condition)];
+    found.names.push_back(fmt::format("{} of {}", row.mode, features.conditions[static_cast<std::size_t>(row.condition)].name));
+    found.frequency_Hz.conservativeResize(found.frequency_Hz.size() + 1);
+    found.frequency_Hz.tail<1>()[0] = row.value;
+  }
+  std::erase_if(conditions, [](const dynamics::MeasuredFrequencies& found) { return found.names.empty(); });
+  return conditions;
+}
+
+constexpr double kAlike = 0.6;  ///< MAC where least_mac says nothing: below it two shapes share less than they do not
+
+/// Where the highest measured frequency is so far up that no basis holds the modes below it.
+void refuse_endless_basis(const diagnosis::BasisModes& basis, const dynamics::LoadedModel& loaded,
+                          const diagnosis::FeatureSet& features, runner::StepContext& context) {
+  if (basis.enough) return;
+  warn_of_unit_slips(context, loaded, basis.frequency_Hz, frequencies_of(features));  // which may be why
+  throw InputError(
+      {loaded.source, 0, ""},
+      fmt::format("has more than {} modes below {:.4g} Hz, the reach of the basis for the highest measured frequency",
+                  basis.frequency_Hz.size(), basis.reach_Hz),
+      "set highest_frequency below the measured modes that are too high, or take bodies and cables that swing by "
+      "themselves out of the model");
+}
+
+/// Places and reduced model of the model as it is now.
+void reduce(const diagnosis::PlaceOptions& place_options, const diagnosis::BasisModes& basis, DiagnosisInputs& inputs) {
+  const diagnosis::Structure& structure = inputs.structure;
+  inputs.places = diagnosis::find_places(structure, place_options);
+  inputs.structure.load_tests =
+      diagnosis::load_tests_in_use(*inputs.model, structure, inputs.places, inputs.features, inputs.load_tests);
+  diagnosis::ReductionOptions reduction;
+  reduction.modes = basis.modes;
+  // Fits end far from where the basis is made (full_model): parameters on bounds, element scatter off by several deviations.
+  reduction.parameter_vectors = 60;
+  reduction.least_correction = 2.5e-4;
+  reduction.element_change = 0.1;
+  std::set<std::string> measured;
+  for (const diagnosis::Row& row : inputs.features.rows)
+    if (row.type == diagnosis::RowType::frequency) measured.insert(row.mode);
+  reduction.corrected_modes = std::max({12, static_cast<int>(measured.size()) + 2, basis.in_band + 2});
+  inputs.reduced = std::make_unique<diagnosis::ReducedModel>(structure, inputs.places, reduction);
+}
+
+/// A reduced model that predicts modes: of all places only the dampers, which change them, are there.
+diagnosis::ReducedModel reduced_for_modes(const diagnosis::DiagnosedModel& model, int modes, int corrected) {
+  const diagnosis::Structure structure = model.structure();
+  diagnosis::Places places = diagnosis::find_places(structure, {});
+  std::erase_if(places.sets, [](const auto& set) { return set.first != "dampers"; });
+  diagnosis::ReductionOptions reduction;
+  reduction.modes = modes;
+  reduction.corrected_modes = corrected;
+  return {structure, places, reduction};
+}
+
+/// Whether measured modes are those of stays that swing. The model that is searched keeps its bars: the modes that only cables
+/// explain are left out of the search, and the extended model has the cables (decision 0014). Nothing where no more modes are
+/// explained with cables, dampers and all conditions included.
+void swing_stays(const DiagnosisConfig& config, const std::vector<diagnosis::Row>& stay_rows, DiagnosisInputs& inputs) {
+  const diagnosis::BarStaysOptions options{config.least_mac > 0.0 ? config.least_mac : kAlike,
+                                           2 * static_cast<int>(config.modes)};
+  auto found = diagnosis::find_bar_stays(inputs.model->structure(), inputs.features, stay_rows, options);
+  if (!found) return;
+  const diagnosis::ModesExplained before =
+      diagnosis::modes_explained(*inputs.reduced, inputs.features, config.scatter, found->rule);
+  auto cables = std::make_shared<diagnosis::DiagnosedModel>(*inputs.model);
+  cables->loaded = dynamics::from_model(std::move(found->extended));
+  const diagnosis::ReducedModel reduced =
+      reduced_for_modes(*cables, std::max(static_cast<int>(config.modes), found->modes_in_basis), found->modes_in_band + 2);
+  const diagnosis::ModesExplained after = diagnosis::modes_explained(reduced, inputs.features, config.scatter, found->rule);
+  if (after.explained <= before.explained) return;
+  inputs.bar_stays.emplace(std::move(found->stays), found->log_odds, before, after);
+  inputs.extended = std::move(cables);
+}
+
+std::filesystem::path catalogue_folder(const DiagnosisConfig& config, const runner::StepContext& context) {
+  if (const auto given = context.flag("catalogue")) return *given;
+  if (!config.catalogue.empty()) return config.catalogue;
+  const std::filesystem::path catalogue = "workflows/common/hypotheses";
+  if (!context.study.empty()) {  // of the tree that the study lies in
+    const auto beside = context.study.parent_path() / "common/hypotheses";
+    if (!std::filesystem::is_directory(catalogue) && std::filesystem::is_directory(beside)) return beside;
+  }
+  return runner::shipped(catalogue);
+}
+
+void read_measurement(const DiagnosisConfig& config, runner::StepContext& context, DiagnosisFiles& files) {
+  if (context.features)
+    files.folder = *context.features;
+  else if (!context.study.empty())
+    files.folder = runner::read_study(context.study).features;
+  if (files.folder.empty())
+    throw InputError({"", 0, ""}, "no features were given", "give --features DIR, or a study with features");
+  context.input(files.folder);
+  const records::MeasuredChoice choice = asked_choice(context);
+  files.features = diagnosis::read_all_features(files.folder, choice);
+  files.corrected = choice.corrections;
+  for (const diagnosis::Row& row : files.features.rows)
+    if (row.type == diagnosis::RowType::stay_frequency) files.stay_rows.push_back(row);
+  diagnosis::choose_rows(config.rows, files.features);
+  if (io::has_table(files.folder / "channels.csv")) files.channels = records::read_channels(files.folder / "channels.csv");
+  files.claims = diagnosis::read_claims(files.folder);
+}
+
+std::vector<diagnosis::Hypothesis> read_causes(const DiagnosisConfig& config, runner::StepContext& context) {
+  const auto folder = catalogue_folder(config, context);
+  std::vector<diagnosis::Hypothesis> causes =
+      diagnosis::read_catalogue(std::filesystem::is_directory(folder) ? context.input(folder) : folder);
+  if (config.further_causes.empty()) return causes;
+  for (diagnosis::Hypothesis& h : diagnosis::read_catalogue(context.input(config.further_causes))) {
+    const auto same = [&](const diagnosis::Hypothesis& other) { return other.id == h.id && other.set == h.set; };
+    if (std::any_of(causes.begin(), causes.end(), same))
+      throw InputError({h.file, 1, "id"}, fmt::format("'{}' stands at {} in the catalogue already", h.id, h.set),
+                       "give it another set of places, or another id");
+    causes.push_back(std::move(h));
+  }
+  return causes;
+}
+
+dynamics::ReadModel read_diagnosed_model(runner::StepContext& context) {
+  const auto updated = context.results / "s6_updating" / "model";
+  // A study that updates nothing is diagnosed on its own model.
+  const bool own = !context.model && !context.study.empty() && !std::filesystem::is_directory(updated) &&
+                   !runner::read_study(context.study).model_folder.empty();
+  return own ? load_study_model(context, "") : load_model(context, updated);
+}
+
+/// Names in one file or the configuration that another file must have.
+void refuse_unknown_names(const DiagnosisConfig& config, const DiagnosisFiles& files) {
+  diagnosis::refuse_unknown_loads(files.folder, files.model.source);
+  diagnosis::refuse_unplaced_load_tests(files.features, files.channels, files.model,
+                                        {files.model.source, files.folder / "channels.csv"});
+  diagnosis::refuse_unknown_stays(files.features, files.model.fe_model(), files.folder);
+  refuse_unplaced_channels(diagnosis::channels_at_points(files.channels), files.model, config.sensor_tolerance_m);
+  // How many modes the basis has is known once the model is reduced.
+  static_cast<void>(
+      matching::read_pairs(config.pairs, std::numeric_limits<Eigen::Index>::max(), {"", 0, "pairs"}, "raise modes"));
+  if (config.hold_out.empty()) return;
+  diagnosis::FeatureSet rows = files.features;
+  diagnosis::hold_out(config.hold_out, rows);
+}
+
+/// Keys of earlier versions, and what has taken their place.
+struct Retired {
+  const char *name, *problem, *mend;
+};
+
+constexpr const char* kOneLaw = "is a key of an earlier method of diagnosis: scales and odds are now estimated from the rows";
+constexpr const char* kTable = "leave it out: a verdict needs a probability of 95 % (docs/diagnosis.md)";
+constexpr Retired retired[] = {
+    {"form", "is a key of an earlier choice between methods of diagnosis: there is one method now",
+     "leave it out; for a model that is exact, scales of its errors come out near zero"},
+    {"alpha", kOneLaw, kTable},
+    {"least_log_odds", kOneLaw, kTable},
+    {"either_within", kOneLaw, kTable},
+    {"residual_alpha", kOneLaw, kTable},
+    {"residual_alpha_named", kOneLaw, kTable},
+    {"nulls", "ran null data sets for a threshold that is no longer used", kTable},
+    {"threshold_cache", "kept thresholds that are no longer used", kTable},
+    {"most_refined", "set how an earlier search went on", "leave it out: the leading entries of every family are fitted"},
+    {"refine_within", "set how an earlier search went on", "leave it out: the leading entries of every family are fitted"},
+    {"refine_locations", "looked for places between those of the catalogue, which is no longer done",
+     "raise nodes and zones instead, for more places"},
+};
+
+/// Positions of the computed modes that the configuration gives to measured ones, by the mode's name in rows.csv.
+/// @param unmeasured  gets those that no row names
+std::map<std::string, int> bound_modes(const DiagnosisConfig& config, const DiagnosisInputs& inputs,
+                                       std::vector<std::string>* unmeasured = nullptr) {
+  std::map<std::string, int> bound;
+  for (const matching::NamedPair& pair :
+       matching::read_pairs(config.pairs, inputs.reduced->mode_coordinates.cols(), {"", 0, "pairs"}, "raise modes")) {
+    const std::size_t before = bound.size();
+    for (const diagnosis::Row& row : inputs.features.rows)
+      if (matching::experimental_label(row.mode) == pair.experimental) bound[row.mode] = static_cast<int>(pair.numerical);
+    if (bound.size() == before && unmeasured != nullptr) unmeasured->push_back(pair.experimental);
+  }
+  return bound;
+}
+
+/// The model reduced, with its places, and the rows that it can be compared with.
+DiagnosisInputs prepare_diagnosis(const DiagnosisConfig& config, const DiagnosisFiles& files, runner::StepContext& context) {
+  DiagnosisInputs inputs;
+  inputs.features = files.features;
+  inputs.corrected = files.corrected;
+  inputs.catalogue = files.catalogue;
+  const dynamics::LoadedModel loaded = dynamics::solvable(files.model);
+  if (!loaded.state.status.converged) throw InputError({loaded.source, 0, ""}, loaded.state.status.message, "");
+  inputs.load_tests = {loaded.source, files.folder / "channels.csv"};
+  inputs.model = diagnosis::prepare_model(loaded, files.channels, config.sensor_tolerance_m);
+  diagnosis::PlaceOptions place_options{static_cast<int>(config.zones), static_cast<int>(config.nodes), {}, {}, {}};
+  place_options.moves = files.moves;
+  inputs.structure = inputs.model->structure();
+  const diagnosis::BasisModes basis =
+      diagnosis::modes_of_basis(inputs.structure, inputs.features, static_cast<int>(config.modes));
+  refuse_endless_basis(basis, loaded, inputs.features, context);
+  inputs.basis_modes = basis.modes;
+  reduce(place_options, basis, inputs);
+  diagnosis::refuse_slack_stays(inputs.features, inputs.places, files.folder);
+  inputs.extended = inputs.model;
+  if (config.stays == "auto") swing_stays(config, files.stay_rows, inputs);
+  diagnosis::FeatureMap as_it_stands(*inputs.reduced, inputs.features, config.scatter);
+  as_it_stands.bind_modes(bound_modes(config, inputs));
+  inputs.account = diagnosis::account_of(files.claims, inputs.features, files.channels, inputs.places, &as_it_stands);
+  judge_units(context, loaded, inputs.reduced->frequency_Hz, frequencies_of(inputs.features),
+              dynamics::FactorWithinBounds::is_refused);
+  const double least_mac = config.least_mac > 0.0 || !inputs.bar_stays ? config.least_mac : kAlike;
+  if (const auto unpaired = diagnosis::leave_out_unpaired(least_mac, config.scatter, *inputs.reduced, inputs.features))
+    inputs.account.push_back(*unpaired);
+  if (const auto imaginary = diagnosis::leave_out_imaginary(*inputs.reduced, inputs.features))
+    inputs.account.push_back(*imaginary);
+  diagnosis::hold_out(config.hold_out, inputs.features);
+  return inputs;
+}
+
+/// @throws InputError  for a file that is not sound, and for a name in one of them that the others do not have
+DiagnosisFiles read_diagnosis_files(const DiagnosisConfig& config, runner::StepContext& context) {
+  DiagnosisFiles files;
+  read_measurement(config, context, files);
+  files.catalogue = read_causes(config, context);
+  files.model = read_diagnosed_model(context);
+  refuse_unknown_names(config, files);
+  if (!config.damper_places.empty())
+    files.moves = diagnosis::read_damper_places(context.input(config.damper_places), files.model.fe_model());
+  return files;
+}
 
 void say_form(const diagnosis::FormReport& form, runner::StepContext& context) {
   context.say(
@@ -39,17 +323,6 @@ void say_sentences(diagnosis::Verdict verdict, const diagnosis::Sentences& sente
 void say_modes_explained(const diagnosis::Diagnosis& result, runner::StepContext& context) {
   if (const auto gain = diagnosis::explained_gain(result))
     context.say(fmt::format("  modes explained: {} -> {} of {} measured", gain->before, gain->after, gain->measured));
-}
-
-/// The tables of a diagnosis, but for diagnosis.json.
-void write_tables(const diagnosis::Inference& inference, const diagnosis::Instantiated& entries,
-                  const diagnosis::Diagnosis& result, const std::filesystem::path& out) {
-  write_residuals(inference, result, out / "residuals.csv");
-  write_hypotheses(result, entries.invisible, out / "hypotheses.csv");
-  write_gain(inference, result, out / "gain.csv");
-  write_pairs(inference, result, out / "pairs.csv");
-  write_misfit(inference, result, out / "misfit.csv");
-  write_unknowns(inference, result, out / "parameters.csv");
 }
 
 /// The model of the last state; what acts in others alone is none of it.
@@ -138,6 +411,62 @@ Status run_diagnosis(const DiagnosisConfig& config, const DiagnosisFiles& files,
 
 runner::Computation read_diagnosis(const DiagnosisConfig& config, runner::StepContext& context) {
   return [&config, &context, files = read_diagnosis_files(config, context)] { return run_diagnosis(config, files, context); };
+}
+
+io::FieldTable DiagnosisConfig::fields() {
+  io::FieldTable t;
+  t.text("catalogue", catalogue, "folder of hypotheses (default: workflows/common/hypotheses)")
+      .text("damper_places", damper_places,
+            "CSV of places where dampers might stand instead: alternative, damper, x_m, y_m, z_m")
+      .text("further_causes", further_causes,
+            "folder of causes beside the catalogue: a study's own, or a family at other places")
+      .texts("pairs", pairs, "measured and computed modes that belong together where no shape tells, \"7X-8N\"")
+      .texts("left_out", rows.left_out, "types of rows that are not used, such as shape_imag, or modes, \"mode:8\"")
+      .number("least_mac", least_mac, "", {0.0, 1.0},
+              "least MAC of a measured mode with one of the model; others are left out and reported. 0 keeps all")
+      .boolean("names_alike", rows.names_alike,
+               "give a mode one name in all conditions, by likeness of shapes (identifications number each condition from 1)")
+      .number("highest_frequency", rows.highest_Hz, "Hz", io::non_negative(), "modes above it are left out; 0: none is")
+      .texts("hold_out", hold_out,
+             "rows kept from the fit: \"condition\", \"condition/mode\", \"condition/mode/type\" or "
+             "\"condition/every_second\", \"none\"; empty: marks, else the rule")
+      .integer("most_causes", most_causes, {0, 3},
+               "largest number of causes in one explanation. 0: causes are told and not put into the model")
+      .integer("modes", modes, {4, 200},
+               "least number of modes in the reduced basis; it has more where the highest measured frequency asks for them")
+      .integer("zones", zones, {2, 10000}, "zones that the elements are gathered in")
+      .integer("nodes", nodes, {2, 10000}, "nodes at which masses, oscillators and ties are looked for")
+      .number("sensor_tolerance", sensor_tolerance_m, "m", io::positive(),
+              "farthest that a sensor may lie from the node that stands for it")
+      .choice("stays", stays, {"auto", "as_modelled"},
+              "auto: stays that the model has as bars become cables in several elements where that explains measured modes "
+              "which the model "
+              "resembles nowhere; their forces come from stay_frequency_Hz rows (left_out keeps these from the fit, not from "
+              "here), else "
+              "from the model; as_modelled: they stay bars")
+      .number("scatter.element_stiffness", scatter.element_stiffness, "", io::non_negative(),
+              "relative deviation of an element's stiffness")
+      .number("scatter.element_mass", scatter.element_mass, "", io::non_negative(), "of an element's mass")
+      .number("scatter.node_mass", scatter.node_mass, "", io::non_negative(), "of the mass at a node of a matrix model")
+      .number("scatter.stay_stiffness", scatter.stay_stiffness, "", io::non_negative(), "of a stay's stiffness")
+      .number("scatter.stay_pull", scatter.stay_pull, "", io::non_negative(), "of a stay's pull")
+      .number("scatter.support_stiffness", scatter.support_stiffness, "", io::non_negative(),
+              "of the stiffness of each bearing and foundation")
+      .number("scatter.gain", scatter.gain, "", io::non_negative(), "of a channel's gain")
+      .number("scatter.frequency_floor", scatter.frequency_floor, "", io::non_negative(),
+              "least relative deviation of a frequency")
+      .number("scatter.damping_floor", scatter.damping_floor, "", io::non_negative(),
+              "least relative deviation of a damping ratio")
+      .number("scatter.shape_floor", scatter.shape_floor, "", io::non_negative(),
+              "least deviation of a shape, of its largest value")
+      .number("scatter.load_model", scatter.load_model, "", io::non_negative(),
+              "of RMS values, for what a simple load model leaves open")
+      .boolean("scatter.damping_by_dampers", scatter.damping_by_dampers,
+               "structural damping is another unknown where dampers are on (stuck ones rub)")
+      .number("scatter.model_form", scatter.model_form, "", io::non_negative(),
+              "of a frequency, alike in all conditions of a mode: what a model that is known to be off leaves open");
+  for (const Retired& key : retired) t.retired(key.name, key.problem, key.mend);
+  return t;
 }
 
 }  // namespace twindeck::steps

@@ -38,6 +38,57 @@ double worst_difference(const Eigen::MatrixXd& a, const Eigen::MatrixXd& referen
   return worst;
 }
 
+/// `sensitivity.csv`: mode,parameter,unit,exact_Hz_per_unit,relative,richardson_Hz_per_unit,forward_eq6_Hz_per_unit,
+/// forward_truncation_Hz_per_unit; truncation = Eq. (6) minus extrapolated central difference; relative = d ln f / d ln p.
+void write_sensitivity(const std::vector<fe::Parameter>& parameters, const sensitivity::Sensitivities& found,
+                       const std::filesystem::path& file) {
+  io::CsvWriter csv({"mode", "parameter", "unit", "exact_Hz_per_unit", "relative", "richardson_Hz_per_unit",
+                     "forward_eq6_Hz_per_unit", "forward_truncation_Hz_per_unit"});
+  const Eigen::MatrixXd relative = found.relative();
+  for (Eigen::Index i = 0; i < found.exact.rows(); ++i) {
+    for (Eigen::Index p = 0; p < found.exact.cols(); ++p) {
+      const fe::Parameter& parameter = parameters[static_cast<std::size_t>(p)];
+      csv.row({static_cast<long>(i + 1), parameter.name, parameter.unit, found.exact(i, p), relative(i, p),
+               found.richardson(i, p), found.forward(i, p), found.forward(i, p) - found.richardson(i, p)});
+    }
+  }
+  csv.save(file);
+}
+
+/// `selection.csv`: parameter,unit,score,rank,selected,published,reason
+void write_selection(const std::vector<fe::Parameter>& parameters, const std::vector<sensitivity::SelectedParameter>& selection,
+                     const SensitivityConfig& config, const std::filesystem::path& file) {
+  io::CsvWriter csv({"parameter", "unit", "score", "rank", "selected", "published", "reason"});
+  for (std::size_t p = 0; p < parameters.size(); ++p) {
+    csv.row({parameters[p].name, parameters[p].unit, selection[p].score, selection[p].rank, selection[p].selected ? 1 : 0,
+             is_published(config, parameters[p].name) ? 1 : 0, selection[p].reason});
+  }
+  csv.save(file);
+}
+
+/// `singular_values.csv`: index,value,relative,identifiable
+void write_singular_values(const sensitivity::Identifiability& identified, const SensitivityConfig& config,
+                           const std::filesystem::path& file) {
+  io::CsvWriter csv({"index", "value", "relative", "identifiable"});
+  const Eigen::VectorXd& values = identified.singular_values;
+  for (Eigen::Index i = 0; i < values.size(); ++i) {
+    csv.row({static_cast<long>(i + 1), values(i), values(0) > 0.0 ? values(i) / values(0) : 0.0,
+             values(i) >= config.singular_value_cutoff ? 1 : 0});
+  }
+  csv.save(file);
+}
+
+/// `identifiability.csv`: parameter,identifiable,resolution
+void write_identifiability(const std::vector<fe::Parameter>& parameters, const sensitivity::Identifiability& identified,
+                           const SensitivityConfig& config, const std::filesystem::path& file) {
+  io::CsvWriter csv({"parameter", "identifiable", "resolution"});
+  for (std::size_t p = 0; p < parameters.size(); ++p) {
+    const auto at = static_cast<Eigen::Index>(p);
+    csv.row({parameters[p].name, is_resolved(identified, config, at) ? 1 : 0, identified.resolution(at)});
+  }
+  csv.save(file);
+}
+
 }  // namespace
 
 io::FieldTable SensitivityConfig::fields() {
@@ -104,50 +155,13 @@ void check_sensitivity_config(const SensitivityConfig& config, const std::vector
   }
 }
 
-void write_sensitivity(const std::vector<fe::Parameter>& parameters, const sensitivity::Sensitivities& found,
-                       const std::filesystem::path& file) {
-  io::CsvWriter csv({"mode", "parameter", "unit", "exact_Hz_per_unit", "relative", "richardson_Hz_per_unit",
-                     "forward_eq6_Hz_per_unit", "forward_truncation_Hz_per_unit"});
-  const Eigen::MatrixXd relative = found.relative();
-  for (Eigen::Index i = 0; i < found.exact.rows(); ++i) {
-    for (Eigen::Index p = 0; p < found.exact.cols(); ++p) {
-      const fe::Parameter& parameter = parameters[static_cast<std::size_t>(p)];
-      csv.row({static_cast<long>(i + 1), parameter.name, parameter.unit, found.exact(i, p), relative(i, p),
-               found.richardson(i, p), found.forward(i, p), found.forward(i, p) - found.richardson(i, p)});
-    }
-  }
-  csv.save(file);
-}
-
-void write_selection(const std::vector<fe::Parameter>& parameters, const std::vector<sensitivity::SelectedParameter>& selection,
-                     const SensitivityConfig& config, const std::filesystem::path& file) {
-  io::CsvWriter csv({"parameter", "unit", "score", "rank", "selected", "published", "reason"});
-  for (std::size_t p = 0; p < parameters.size(); ++p) {
-    csv.row({parameters[p].name, parameters[p].unit, selection[p].score, selection[p].rank, selection[p].selected ? 1 : 0,
-             is_published(config, parameters[p].name) ? 1 : 0, selection[p].reason});
-  }
-  csv.save(file);
-}
-
-void write_singular_values(const sensitivity::Identifiability& identified, const SensitivityConfig& config,
-                           const std::filesystem::path& file) {
-  io::CsvWriter csv({"index", "value", "relative", "identifiable"});
-  const Eigen::VectorXd& values = identified.singular_values;
-  for (Eigen::Index i = 0; i < values.size(); ++i) {
-    csv.row({static_cast<long>(i + 1), values(i), values(0) > 0.0 ? values(i) / values(0) : 0.0,
-             values(i) >= config.singular_value_cutoff ? 1 : 0});
-  }
-  csv.save(file);
-}
-
-void write_identifiability(const std::vector<fe::Parameter>& parameters, const sensitivity::Identifiability& identified,
-                           const SensitivityConfig& config, const std::filesystem::path& file) {
-  io::CsvWriter csv({"parameter", "identifiable", "resolution"});
-  for (std::size_t p = 0; p < parameters.size(); ++p) {
-    const auto at = static_cast<Eigen::Index>(p);
-    csv.row({parameters[p].name, is_resolved(identified, config, at) ? 1 : 0, identified.resolution(at)});
-  }
-  csv.save(file);
+void write_tables(const std::vector<fe::Parameter>& parameters, const sensitivity::Sensitivities& found,
+                  const std::vector<sensitivity::SelectedParameter>& selection, const sensitivity::Identifiability& identified,
+                  const SensitivityConfig& config, const std::filesystem::path& folder) {
+  write_sensitivity(parameters, found, folder / "sensitivity.csv");
+  write_selection(parameters, selection, config, folder / "selection.csv");
+  write_singular_values(identified, config, folder / "singular_values.csv");
+  write_identifiability(parameters, identified, config, folder / "identifiability.csv");
 }
 
 std::vector<std::string> sensitivity_report(const std::vector<fe::Parameter>& parameters,

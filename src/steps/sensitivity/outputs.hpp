@@ -37,19 +37,10 @@ void check_sensitivity_config(const SensitivityConfig& config, const std::vector
 
 [[nodiscard]] std::vector<std::string> parameter_names(const std::vector<fe::Parameter>& parameters);
 
-/// `sensitivity.csv`: mode,parameter,unit,exact_Hz_per_unit,relative,richardson_Hz_per_unit,forward_eq6_Hz_per_unit,
-/// forward_truncation_Hz_per_unit; truncation = Eq. (6) minus extrapolated central difference; relative = d ln f / d ln p.
-void write_sensitivity(const std::vector<fe::Parameter>& parameters, const sensitivity::Sensitivities& found,
-                       const std::filesystem::path& file);
-/// `selection.csv`: parameter,unit,score,rank,selected,published,reason
-void write_selection(const std::vector<fe::Parameter>& parameters, const std::vector<sensitivity::SelectedParameter>& selection,
-                     const SensitivityConfig& config, const std::filesystem::path& file);
-/// `singular_values.csv`: index,value,relative,identifiable
-void write_singular_values(const sensitivity::Identifiability& identified, const SensitivityConfig& config,
-                           const std::filesystem::path& file);
-/// `identifiability.csv`: parameter,identifiable,resolution
-void write_identifiability(const std::vector<fe::Parameter>& parameters, const sensitivity::Identifiability& identified,
-                           const SensitivityConfig& config, const std::filesystem::path& file);
+/// sensitivity.csv, selection.csv, singular_values.csv, identifiability.csv.
+void write_tables(const std::vector<fe::Parameter>& parameters, const sensitivity::Sensitivities& found,
+                  const std::vector<sensitivity::SelectedParameter>& selection, const sensitivity::Identifiability& identified,
+                  const SensitivityConfig& config, const std::filesystem::path& folder);
 
 /// For people: agreement of the three ways, selection beside the paper's, directions that the frequencies see.
 [[nodiscard]] std::vector<std::string> sensitivity_report(const std::vector<fe::Parameter>& parameters,

@@ -4,6 +4,7 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <filesystem>
 #include <optional>
@@ -13,23 +14,188 @@
 #include <vector>
 
 #include "buffeting/bridge_in_wind.hpp"
+#include "buffeting/field_statistics.hpp"
 #include "buffeting/paper_statements.hpp"
 #include "buffeting/simulated_runs.hpp"
 #include "buffeting/time_checks.hpp"
+#include "core/angle.hpp"
 #include "core/error.hpp"
 #include "dynamics/loaded_model.hpp"
 #include "fe/model.hpp"
+#include "io/csv.hpp"
 #include "records/campaign.hpp"
 #include "records/vertical_channel.hpp"
 #include "signal/condition.hpp"
 #include "steps/shared/model_source.hpp"
-#include "steps/validation/outputs.hpp"
 #include "steps/wind/deck_files.hpp"
 #include "wind/turbulence.hpp"
 
 namespace twindeck::steps {
-
 namespace {
+
+/// What the step found.
+struct ValidationOutcome {
+  std::vector<buffeting::RunResult> results;
+  std::vector<buffeting::FieldCheck> field_checks;
+  std::vector<buffeting::TimeCheck> time_checks;  ///< of the first event and run in which the bridge is stable
+};
+
+using Eigen::Index;
+
+constexpr std::size_t kBeforeMeasured = 12;  ///< columns of rms.csv before the measured side
+
+/// rms.csv:
+/// `event,run,model,channel,direction,rms_m_s2,rms_low_m_s2,rms_high_m_s2,seed_deviation_m_s2,peak_m_s2,spectral_rms_m_s2,
+/// spectral_rms_each_frequency_m_s2`: accelerations at the monitoring points, mean over seeds with its interval, what one seed
+/// scatters, and the frequency domain's value, with derivatives frozen as in time and at each frequency's own; then
+/// `measured_rms_m_s2,error_pct, error_low_pct,error_high_pct` of the vertical direction, Eq. (18), 100 (RMS_num / RMS_exp -
+/// 1), empty without a measured side. The bounds are those of the mean over seeds. Where the bridge is unstable in an event and
+/// a run, all that is simulated is empty.
+void write_rms(const std::vector<buffeting::RunResult>& results, const buffeting::BridgeInWind& bridge,
+               const buffeting::MeasuredRms& measured, const ValidationConfig& config, const std::filesystem::path& folder) {
+  io::CsvWriter csv({"event", "run", "model", "channel", "direction", "rms_m_s2", "rms_low_m_s2", "rms_high_m_s2",
+                     "seed_deviation_m_s2", "peak_m_s2", "spectral_rms_m_s2", "spectral_rms_each_frequency_m_s2",
+                     "measured_rms_m_s2", "error_pct", "error_low_pct", "error_high_pct"});
+  const std::array<std::string, 3> axes = {"x", "y", "z"};
+  for (const buffeting::RunResult& result : results) {
+    for (std::size_t p = 0; p < bridge.sensors.points.size(); ++p) {
+      for (Index d = 0; d < 3; ++d) {
+        const Index row = 3 * static_cast<Index>(p) + d;
+        const auto found = measured.find({result.event, bridge.sensors.points[p]});
+        std::optional<double> there, error, low, high;
+        if (d == 2 && found != measured.end()) there = found->second;
+        std::vector<io::Cell> cells = {result.event, result.run, result.model, bridge.sensors.points[p],
+                                       axes[static_cast<std::size_t>(d)]};
+        if (result.status.converged) {
+          const buffeting::Interval rms = buffeting::confidence_interval(result.rms.row(row).transpose(), config.level);
+          if (there) {
+            error = 100.0 * (rms.mean / *there - 1.0);
+            low = 100.0 * (rms.low / *there - 1.0);
+            high = 100.0 * (rms.high / *there - 1.0);
+          }
+          for (const double value : {rms.mean, rms.low, rms.high, rms.deviation, result.peak.row(row).mean(),
+                                     result.spectral_rms[row], result.spectral_rms_each_frequency[row]})
+            cells.emplace_back(value);
+        } else {
+          cells.resize(kBeforeMeasured, io::Cell(""));
+        }
+        for (const std::optional<double>& value : {there, error, low, high}) cells.emplace_back(value);
+        csv.row(cells);
+      }
+    }
+  }
+  csv.save(folder / "rms.csv");
+}
+
+/// statements.csv: `statement,found,verdict`, hit or miss.
+void write_statements(const std::vector<buffeting::PaperStatement>& statements, const std::filesystem::path& folder) {
+  io::CsvWriter csv({"statement", "found", "verdict"});
+  for (const buffeting::PaperStatement& said : statements) csv.row({said.statement, said.found, said.holds ? "hit" : "miss"});
+  csv.save(folder / "statements.csv");
+}
+
+/// comfort.csv: `event,run,direction,deck,station_m,peak_m_s2,peak_low_m_s2,peak_high_m_s2,limit_m_s2,verdict`: the aerodynamic
+/// node with the largest mean peak, against the comfort limits: "within", "exceeded", or "unstable", which has no peak.
+void write_comfort(const std::vector<buffeting::RunResult>& results, const buffeting::BridgeInWind& bridge,
+                   const ValidationConfig& config, const std::filesystem::path& folder) {
+  io::CsvWriter csv({"event", "run", "direction", "deck", "station_m", "peak_m_s2", "peak_low_m_s2", "peak_high_m_s2",
+                     "limit_m_s2", "verdict"});
+  for (const buffeting::RunResult& result : results) {
+    for (const bool vertical : {true, false}) {
+      const double limit = vertical ? config.comfort_vertical_m_s2 : config.comfort_lateral_m_s2;
+      const std::string direction = vertical ? "vertical" : "lateral";
+      if (!result.status.converged) {
+        csv.row({result.event, result.run, direction, "", "", "", "", "", limit, "unstable"});
+        continue;
+      }
+      std::size_t worst = 0;
+      double highest = -1.0;
+      for (std::size_t i = 0; i < bridge.sensors.nodes.size(); ++i) {
+        const Index row = vertical ? bridge.sensors.vertical_row(i) : bridge.sensors.lateral_row(i);
+        if (const double mean = result.peak.row(row).mean(); mean > highest) {
+          highest = mean;
+          worst = i;
+        }
+      }
+      const Index row = vertical ? bridge.sensors.vertical_row(worst) : bridge.sensors.lateral_row(worst);
+      const aero::Strip& strip = bridge.model.strips[bridge.sensors.nodes[worst]];
+      const buffeting::Interval peak = buffeting::confidence_interval(result.peak.row(row).transpose(), config.level);
+      csv.row({result.event, result.run, direction, strip.deck, strip.station_m, peak.mean, peak.low, peak.high, limit,
+               peak.high <= limit ? "within" : "exceeded"});
+    }
+  }
+  csv.save(folder / "comfort.csv");
+}
+
+/// wind_check.csv: `event,quantity,target,found,allowed,verdict`; no rows of an event in which all runs are unstable.
+void write_wind_check(const std::vector<buffeting::FieldCheck>& checks, const std::filesystem::path& folder) {
+  io::CsvWriter csv({"event", "quantity", "target", "found", "allowed", "verdict"});
+  for (const buffeting::FieldCheck& check : checks) {
+    csv.row({check.event, check.quantity, check.target, check.found, check.allowed,
+             std::abs(check.found - check.target) <= check.allowed ? "met" : "missed"});
+  }
+  csv.save(folder / "wind_check.csv");
+}
+
+/// checks.csv: `check,channel,reference_m_s2,found_m_s2,difference_pct,allowed_pct,verdict`, of the first event and run in
+/// which the bridge is stable.
+void write_time_checks(const std::vector<buffeting::TimeCheck>& checks, const std::filesystem::path& folder) {
+  io::CsvWriter csv({"check", "channel", "reference_m_s2", "found_m_s2", "difference_pct", "allowed_pct", "verdict"});
+  for (const buffeting::TimeCheck& check : checks) {
+    const double difference = 100.0 * (check.found_m_s2 / check.reference_m_s2 - 1.0);
+    csv.row({check.name, check.channel, check.reference_m_s2, check.found_m_s2, difference, check.allowed_pct,
+             std::abs(difference) <= check.allowed_pct ? "met" : "missed"});
+  }
+  csv.save(folder / "checks.csv");
+}
+
+/// hybrid.csv: the zones of Table 14, `deck,theta_from_deg,theta_to_deg,zone,model,statics,lookup_cos_power,
+/// block_inverse_cos_power,nodes`; the ends are the yaw at the decks' end stays. hybrid_nodes.csv:
+/// `deck,node,station_m,x_m,y_m,yaw_deg, model,static_factor,block_factor` (Fig. 21).
+void write_hybrid(const buffeting::BridgeInWind& bridge, const std::filesystem::path& folder) {
+  io::CsvWriter zones({"deck", "theta_from_deg", "theta_to_deg", "zone", "model", "statics", "lookup_cos_power",
+                       "block_inverse_cos_power", "nodes"});
+  io::CsvWriter nodes({"deck", "node", "station_m", "x_m", "y_m", "yaw_deg", "model", "static_factor", "block_factor"});
+  if (!bridge.aerodynamics.hybrid.empty()) {
+    const aero::Deployment deployment = buffeting::deployment_of(bridge.aerodynamics, "hybrid");
+    for (const aero::HybridZone& zone : bridge.aerodynamics.hybrid) {
+      std::vector<double> yaw;
+      for (const aero::Strip& strip : bridge.model.strips) {
+        if (strip.deck != zone.deck) continue;
+        const aero::YawRule& rule = deployment.at(strip.deck, strip.yaw_rad);
+        yaw.push_back(strip.yaw_rad * degrees);
+        nodes.row({strip.deck, yaw.size(), strip.station_m, strip.x_m.x(), strip.x_m.y(), yaw.back(), rule.name,
+                   aero::static_factor(rule, strip.yaw_rad).force, aero::block_factor(rule, strip.yaw_rad)(1, 1)});
+      }
+      if (yaw.size() < 2) continue;
+      std::sort(yaw.begin(), yaw.end());
+      // The outermost strips end half a strip beyond their nodes: at the end stays.
+      const double lowest = yaw[0] - 0.5 * (yaw[1] - yaw[0]), highest = yaw.back() + 0.5 * (yaw.back() - yaw[yaw.size() - 2]);
+      const auto put = [&](const std::string& name, double from, double to) {
+        const aero::YawRule& rule = deployment.at(zone.deck, 0.5 * (from + to) / degrees);
+        const auto inside = std::count_if(yaw.begin(), yaw.end(), [&](double y) { return y >= from && y <= to; });
+        zones.row({zone.deck, from, to, name, rule.name, name_of(rule.statics), rule.lookup_power, rule.inverse_power(1, 1),
+                   static_cast<long>(inside)});
+      };
+      if (lowest < -zone.beyond_deg) put("end", lowest, -zone.beyond_deg);
+      if (highest > zone.beyond_deg) put("end", zone.beyond_deg, highest);
+      put("middle", std::max(lowest, -zone.beyond_deg), std::min(highest, zone.beyond_deg));
+    }
+  }
+  zones.save(folder / "hybrid.csv");
+  nodes.save(folder / "hybrid_nodes.csv");
+}
+
+/// rms.csv, statements.csv, comfort.csv, wind_check.csv, hybrid.csv, hybrid_nodes.csv, checks.csv.
+void write_tables(const ValidationOutcome& found, const buffeting::BridgeInWind& bridge, const buffeting::MeasuredRms& measured,
+                  const ValidationConfig& config, const std::filesystem::path& folder) {
+  write_rms(found.results, bridge, measured, config, folder);
+  write_statements(buffeting::paper_statements(found.results, bridge.sensors, measured), folder);
+  write_comfort(found.results, bridge, config, folder);
+  write_wind_check(found.field_checks, folder);
+  write_hybrid(bridge, folder);
+  write_time_checks(found.time_checks, folder);
+}
 
 /// Channels that are the vertical acceleration at the monitoring point of their name. Warns of those that are not.
 std::set<std::string> vertical_channels(runner::StepContext& context, const records::Campaign& campaign, const fe::Model& model,
@@ -164,8 +330,7 @@ Status run_validation(const ValidationConfig& config, const ValidationInputs& re
                           bridge.reduced.dampers));
 
   // 2. Events one after the other, seeds in parallel. Where the bridge is unstable in a run there is nothing to publish of it.
-  std::vector<buffeting::RunResult> results;
-  std::vector<buffeting::FieldCheck> checks;
+  ValidationOutcome found;
   std::optional<buffeting::CheckedCase> stable;
   std::vector<std::string> unstable;
   for (const buffeting::WindEvent& event : config.events) {
@@ -177,22 +342,16 @@ Status run_validation(const ValidationConfig& config, const ValidationInputs& re
       } else if (!stable) {
         stable = {event, config.runs[i]};
       }
-      results.push_back(std::move(simulated.runs[i]));
+      found.results.push_back(std::move(simulated.runs[i]));
     }
-    checks.insert(checks.end(), simulated.checks.begin(), simulated.checks.end());
+    found.field_checks.insert(found.field_checks.end(), simulated.checks.begin(), simulated.checks.end());
   }
 
   for (const std::string& told : unstable) context.warn(told + "; its rows in rms.csv and comfort.csv are left empty");
 
   // 3. Tables.
-  write_rms(results, bridge, read.measured, config, context.out);
-  write_statements(buffeting::paper_statements(results, bridge.sensors, read.measured), context.out);
-  write_comfort(results, bridge, config, context.out);
-  write_wind_check(checks, context.out);
-  write_hybrid(bridge, context.out);
-  write_time_checks(stable ? buffeting::check_time_integration(bridge, set, config, *stable, context.seed)
-                           : std::vector<buffeting::TimeCheck>(),
-                    context.out);
+  if (stable) found.time_checks = buffeting::check_time_integration(bridge, set, config, *stable, context.seed);
+  write_tables(found, bridge, read.measured, config, context.out);
   if (!stable) return {false, fmt::format("{}", fmt::join(unstable, "; "))};
   return {};
 }
