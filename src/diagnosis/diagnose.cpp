@@ -2,9 +2,42 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
+#include <map>
 
 namespace twindeck::diagnosis {
+namespace {
+
+constexpr double kLeastSignature = 1e-9;  ///< [-] of an unknown on whitened rows: below it is rounding
+constexpr std::size_t kLongestMap = 40;   ///< locations: as many as a figure shows, the others score like chance
+
+}  // namespace
+
+std::vector<LocationScore> location_map(const Inference& inference, const Fit& fit, const std::vector<Scored>& ranking) {
+  std::map<std::string, double> best;
+  const auto& nuisances = inference.map().nuisances();
+  for (std::size_t j = 0; j < nuisances.size(); ++j) {
+    const Nuisance& v = nuisances[j];
+    if (v.kind == Nuisance::Kind::mode_damping || v.kind == Nuisance::Kind::level) continue;
+    const Eigen::VectorXd l =
+        fit.total_factor.triangularView<Eigen::Lower>().solve(fit.map.jacobian.col(static_cast<Eigen::Index>(j)));
+    if (!(l.norm() > kLeastSignature)) continue;
+    const std::string location = v.kind == Nuisance::Kind::parameter ? "group:" + v.name : v.name.substr(0, v.name.find(' '));
+    double& score = best[location];
+    score = std::max(score, std::abs(l.dot(fit.whitened)) / l.norm());
+  }
+  for (const Scored& scored : ranking) {
+    if (scored.candidate->location == "global" || scored.candidate->hypothesis->measurement || scored.screen <= 0.0) continue;
+    double& score = best[scored.candidate->location];
+    score = std::max(score, std::sqrt(scored.screen));
+  }
+  std::vector<LocationScore> map;
+  for (const auto& [location, score] : best) map.push_back({location, score});
+  std::stable_sort(map.begin(), map.end(), [](const auto& a, const auto& b) { return a.score > b.score; });
+  if (map.size() > kLongestMap) map.resize(kLongestMap);
+  return map;
+}
 
 namespace {
 

@@ -11,12 +11,22 @@
 #include "diagnosis/inference/guard.hpp"
 #include "diagnosis/inference/one_verdict.hpp"
 #include "diagnosis/intervals.hpp"
-#include "diagnosis/location_map.hpp"
 #include "diagnosis/progress.hpp"
 #include "diagnosis/residual_test.hpp"
 #include "diagnosis/scatter_scales.hpp"
 
 namespace twindeck::diagnosis {
+
+/// How strongly the rows ask for a change at a location, in standard deviations of what chance would ask.
+struct LocationScore {
+  std::string location;
+  double score;
+};
+
+/// Where the rows ask for a change: scores of every parameter, of element scatter and of the screened entries' locations, the
+/// strongest first.
+[[nodiscard]] std::vector<LocationScore> location_map(const Inference& inference, const Fit& fit,
+                                                      const std::vector<Scored>& ranking);
 
 struct DiagnoseOptions {
   /// [nats] Prior odds against nothing of all causes together that act in all conditions alike: such a cause looks like an

@@ -8,7 +8,7 @@
 
 #include "core/error.hpp"
 #include "fe/matrix_element.hpp"
-#include "fe/motion_words.hpp"
+#include "fe/mechanism.hpp"
 
 namespace twindeck::fe {
 

@@ -9,10 +9,8 @@
 #include "core/error.hpp"
 #include "fe/assembly.hpp"
 #include "fe/definite.hpp"
-#include "fe/motion_words.hpp"
 
 namespace twindeck::fe {
-
 namespace {
 
 constexpr double no_stiffness = 1e-14;  // relative to the largest diagonal entry of its kind, or as a Rayleigh quotient
@@ -117,6 +115,33 @@ linalg::Cholesky factorize_or_refuse(const linalg::SparseMatrix& lower, const st
 void check_no_mechanism(const ParametricSystem& system, const Eigen::VectorXd& theta, const std::string& source) {
   const linalg::Cholesky factor = factorize_or_refuse(system.stiffness(theta), system.dofs, source, "");
   static_cast<void>(factor);
+}
+
+MotionWords words_of(const Eigen::VectorXd& motion, const std::vector<DofLabel>& dofs) {
+  constexpr std::array<const char*, 6> direction_names = {"x", "y", "z", "rx", "ry", "rz"};
+  Eigen::Index largest = 0;
+  motion.cwiseAbs().maxCoeff(&largest);
+  const DofLabel& worst = dofs[static_cast<std::size_t>(largest)];
+  MotionWords words;
+  words.node = "node " + worst.node;
+  if (worst.x_m.allFinite()) words.place = fmt::format(" at ({:g}, {:g}, {:g}) m", worst.x_m.x(), worst.x_m.y(), worst.x_m.z());
+  for (std::size_t i = 0; i < dofs.size(); ++i) {
+    const double part = std::abs(motion[static_cast<Eigen::Index>(i)] / motion[largest]);
+    if (dofs[i].node != worst.node || part < 0.1) continue;
+    words.directions +=
+        (words.directions.empty() ? "" : ", ") + std::string(direction_names[static_cast<std::size_t>(dofs[i].direction)]);
+  }
+  return words;
+}
+
+Eigen::VectorXd softest_motion(const linalg::Cholesky& factor, const Eigen::VectorXd& diagonal, int iterations) {
+  Eigen::VectorXd x(diagonal.size());
+  for (Eigen::Index i = 0; i < x.size(); ++i) x[i] = 1.0 + 0.5 * std::sin(1.7 * static_cast<double>(i));
+  for (int i = 0; i < iterations; ++i) {
+    x = factor.solve(diagonal.cwiseProduct(x));
+    x /= x.cwiseAbs().maxCoeff();
+  }
+  return x;
 }
 
 }  // namespace twindeck::fe

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <Eigen/Core>
 #include <string>
 #include <vector>
 
@@ -19,5 +20,19 @@ namespace twindeck::fe {
 /// @throws InputError for a mechanism
 [[nodiscard]] linalg::Cholesky factorize_or_refuse(const linalg::SparseMatrix& lower, const std::vector<DofLabel>& dofs,
                                                    const std::string& source, const std::string& context);
+
+// Description of a motion of the structure for messages: the node that moves most, its coordinates and directions.
+
+struct MotionWords {
+  std::string node;        ///< "node 12"
+  std::string place;       ///< " at (1, 2, 3) m", "" where coordinates are unknown
+  std::string directions;  ///< "x, ry": all with at least a tenth of the largest
+};
+
+/// @param motion  (n) over the free degrees of freedom
+[[nodiscard]] MotionWords words_of(const Eigen::VectorXd& motion, const std::vector<DofLabel>& dofs);
+
+/// The motion with the least stiffness relative to `diagonal`, by inverse iteration from a fixed start.
+[[nodiscard]] Eigen::VectorXd softest_motion(const linalg::Cholesky& factor, const Eigen::VectorXd& diagonal, int iterations);
 
 }  // namespace twindeck::fe

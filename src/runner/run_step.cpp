@@ -1,6 +1,7 @@
 #include "runner/run_step.hpp"
 
 #include <fmt/format.h>
+#include <malloc.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -8,9 +9,12 @@
 #include <chrono>
 #include <csignal>
 #include <cstdio>
+#include <filesystem>
 #include <limits>
+#include <map>
 #include <new>
 #include <stdexcept>
+#include <string>
 #include <string_view>
 #include <system_error>
 
@@ -22,18 +26,53 @@
 #include "runner/clean_interrupt.hpp"
 #include "runner/command_line.hpp"
 #include "runner/heartbeat.hpp"
-#include "runner/plan.hpp"
 #include "runner/shipped_files.hpp"
 #include "runner/study.hpp"
 #include "runner/threads.hpp"
 
-#if defined(__GLIBC__)
-#include <malloc.h>
-#endif
-
 namespace twindeck::runner {
+
 namespace fs = std::filesystem;
 namespace {
+
+/// A line a folder; a file that is the only one of its folder is named.
+std::string reads(const StepContext& context) {
+  struct Files {
+    std::string only;
+    std::size_t count = 0;
+    std::uintmax_t bytes = 0;
+  };
+  std::map<std::string, Files> folders;
+  for (const auto& [file, hash] : context.input_hashes_) {
+    Files& files = folders[fs::path(file).parent_path().generic_string()];
+    files.only = file;
+    files.bytes += fs::file_size(file);
+    ++files.count;
+  }
+  constexpr double kilobyte = 1000.0;
+  std::string text;
+  for (const auto& [folder, files] : folders)
+    text +=
+        fmt::format("  reads {}: {:.1f} kB\n",
+                    files.count == 1 ? printable(files.only) : fmt::format("{} files of {}", files.count, printable(folder)),
+                    static_cast<double>(files.bytes) / kilobyte);
+  return text;
+}
+
+/// What --check prints of a step whose inputs are valid: what would run, how many files of which folder it reads, where it
+/// would write, and how long the earlier run took whose results lie there. Several lines, each ended.
+/// @param out  folder to write
+std::string plan_of(const Step& step, const StepContext& context, const fs::path& out) {
+  std::string writes = "would write: " + printable(out.generic_string()), takes = "not known: there is no earlier run";
+  if (io::is_step_folder(out)) {
+    const io::Manifest earlier = io::read_manifest(out);
+    writes += ", in place of the results there";
+    takes = fmt::format("about {:.1f} s, as the earlier run{} did", earlier.seconds,
+                        earlier.config_toml == step.fields.print() ? "" : " of another configuration");
+  }
+  return fmt::format("{}: inputs are valid; nothing was computed or written\n  would run: {}\n{}  {}\n  takes: {}\n",
+                     step.token, step.summary, reads(context), writes, takes);
+}
 
 /// One line whatever was thrown.
 int failure(const std::string& token, const std::string& kind, const std::string& message, int code) {

@@ -5,7 +5,6 @@
 #include <vector>
 
 #include "updating/multi_start.hpp"
-#include "updating/reduced_system.hpp"
 #include "updating/residuals.hpp"
 #include "updating/surrogate.hpp"
 #include "updating/updating.hpp"

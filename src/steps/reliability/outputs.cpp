@@ -1,5 +1,7 @@
 #include "steps/reliability/outputs.hpp"
 
+#include <fmt/format.h>
+
 #include <cmath>
 #include <optional>
 
@@ -117,6 +119,36 @@ void write_annual(const std::vector<AnnualRow>& rows, const std::filesystem::pat
   for (const AnnualRow& row : rows)
     csv.row({row.quantity, row.of.years, dampers(row.of), row.of.fault, row.place, row.value, row.upper, row.unit});
   csv.save(folder / "annual.csv");
+}
+
+void write_visible(const std::vector<reliability::VisibleLoss>& losses, const std::vector<reliability::Wall>& walls,
+                   const std::vector<MonitoredName>& monitored, const std::filesystem::path& folder) {
+  io::CsvWriter csv({"wall", "section", "wall_thickness_m", "smallest_loss_m", "share_pct", "years", "located_loss_m",
+                     "distance", "mode", "change_pct"});
+  io::CsvWriter modes({"wall", "experimental_mode", "numerical_mode", "deviation_pct", "change_pct"});
+  for (std::size_t w = 0; w < walls.size(); ++w) {
+    const reliability::VisibleLoss& loss = losses[w];
+    const long number = static_cast<long>(w) + 1;
+    std::optional<double> share, years;
+    if (loss.loss_m) {
+      share = 100.0 * *loss.loss_m / loss.wall_m;
+      years = walls[w].corrosion.years_until(*loss.loss_m);
+    }
+    std::size_t clearest = 0;
+    for (std::size_t i = 0; i < monitored.size(); ++i) {
+      const auto weight = [&](std::size_t k) {
+        return std::abs(loss.change[static_cast<Eigen::Index>(k)]) / monitored[k].mode.deviation;
+      };
+      if (weight(i) > weight(clearest)) clearest = i;
+      modes.row({number, monitored[i].measured, fmt::format("{}N", monitored[i].mode.mode + 1),
+                 100.0 * monitored[i].mode.deviation, 100.0 * std::expm1(loss.change[static_cast<Eigen::Index>(i)])});
+    }
+    for (const std::string& section : walls[w].sections)
+      csv.row({number, section, loss.wall_m, loss.loss_m, share, years, loss.located_m, loss.distance,
+               monitored[clearest].measured, 100.0 * std::expm1(loss.change[static_cast<Eigen::Index>(clearest)])});
+  }
+  csv.save(folder / "visible.csv");
+  modes.save(folder / "visible_modes.csv");
 }
 
 }  // namespace twindeck::steps

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "reliability/bridge_reliability.hpp"
+#include "steps/reliability/inputs.hpp"
 
 /// What s10_reliability writes.
 namespace twindeck::steps {
@@ -107,5 +108,13 @@ struct AnnualRow {
   std::optional<double> upper;
 };
 void write_annual(const std::vector<AnnualRow>& rows, const std::filesystem::path& folder);
+
+/// visible.csv, a row a section of each wall:
+/// `wall,section,wall_thickness_m,smallest_loss_m,share_pct,years,located_loss_m,distance,mode,change_pct`: the smallest loss
+/// of a surface that two measurements of the frequencies reveal, when it is reached, from which loss on it is told from losses
+/// of other walls, and the mode that says most. visible_modes.csv:
+/// `wall,experimental_mode,numerical_mode,deviation_pct,change_pct`.
+void write_visible(const std::vector<reliability::VisibleLoss>& losses, const std::vector<reliability::Wall>& walls,
+                   const std::vector<MonitoredName>& monitored, const std::filesystem::path& folder);
 
 }  // namespace twindeck::steps

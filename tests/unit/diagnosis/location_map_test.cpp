@@ -1,8 +1,7 @@
 // Oracle: scores by hand from a fit of three rows with unit errors.
-#include "diagnosis/location_map.hpp"
-
 #include <gtest/gtest.h>
 
+#include "diagnosis/diagnose.hpp"
 #include "unit/diagnosis/prediction/hand_made.hpp"
 
 namespace twindeck::tests {

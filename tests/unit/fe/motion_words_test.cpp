@@ -1,9 +1,9 @@
 // Oracles: the header's rule (a tenth of the largest), an eigenvector by hand.
-#include "fe/motion_words.hpp"
-
 #include <gtest/gtest.h>
 
 #include <limits>
+
+#include "fe/mechanism.hpp"
 
 namespace twindeck::fe {
 namespace {

@@ -1,12 +1,11 @@
 // Projection on a fixed basis. Oracles: the full square basis, on which nothing is lost; central differences of Eigen's dense
 // eigenvalues and shapes; closed forms of two springs; invariances of an orthonormal basis.
-#include "updating/reduced_system.hpp"
-
 #include <gtest/gtest.h>
 
 #include <cmath>
 
 #include "chain.hpp"
+#include "updating/surrogate.hpp"
 
 namespace twindeck::updating {
 namespace {

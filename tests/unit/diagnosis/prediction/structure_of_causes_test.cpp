@@ -4,7 +4,7 @@
 
 #include <Eigen/Dense>
 
-#include "diagnosis/reduction/attachment_stiffness.hpp"
+#include "diagnosis/reduction/structure_state.hpp"
 #include "hand_made.hpp"
 
 namespace twindeck::tests {

@@ -1,12 +1,12 @@
 // Oracles: the first harmonic of the force of a Jenkins element that is moved to and fro; the energy of its loop; the balance
 // at a slider, put in again; limits of soft and hard friction; central differences.
-#include "diagnosis/reduction/attachment_stiffness.hpp"
-
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+
+#include "diagnosis/reduction/structure_state.hpp"
 
 namespace twindeck::tests {
 namespace {
