@@ -222,6 +222,103 @@ std::string numbers_of(const identification::Numbering& numbering) {
   return fmt::format("{}", fmt::join(numbers, " "));
 }
 
+/// decays.csv: `condition,setup,mode,frequency_Hz,frequency_std_Hz,damping_ratio_pct,damping_ratio_std_pct,orders` and the
+/// ambient mode it agrees with, `ambient_mode,ambient_frequency_Hz,ambient_frequency_std_Hz,mac` (empty for none).
+/// amplitude.csv: `source,condition,setup,record,mode,amplitude,quantity,frequency_Hz,frequency_std_Hz,damping_ratio_pct,
+/// damping_ratio_std_pct,seconds`: source free_decay (bands of the envelope) and ambient (one row a mode, amplitude sqrt(2)
+/// times the modal RMS), at the channel of the shape's largest component.
+void write_decays(const std::vector<identification::DecayResult>& decays,
+                  const std::vector<identification::ConditionResult>& results,
+                  const identification::IdentificationSettings& config, const std::filesystem::path& folder) {
+  io::CsvWriter modes({"condition", "setup", "mode", "frequency_Hz", "frequency_std_Hz", "damping_ratio_pct",
+                       "damping_ratio_std_pct", "orders", "ambient_mode", "ambient_frequency_Hz", "ambient_frequency_std_Hz",
+                       "mac"});
+  io::CsvWriter levels({"source", "condition", "setup", "record", "mode", "amplitude", "quantity", "frequency_Hz",
+                        "frequency_std_Hz", "damping_ratio_pct", "damping_ratio_std_pct", "seconds"});
+  for (const identification::DecayResult& decay : decays) {
+    const identification::ConditionResult* ambient = identification::condition_named(results, decay.conditioned.condition);
+    for (std::size_t m = 0; m < decay.found.modes.size(); ++m) {
+      const identification::Cluster& mode = decay.found.modes[m];
+      const identification::ModeDeviation& deviation = decay.found.deviations[m];
+      const auto partner = identification::partner_of(mode, decay.conditioned.channels, ambient);
+      const auto known = [&](double value) { return partner ? std::optional(value) : std::nullopt; };
+      const std::size_t at = partner ? partner->mode : 0;
+      modes.row({decay.conditioned.condition, decay.conditioned.setup, std::to_string(m + 1), mode.frequency_Hz,
+                 deviation.frequency_Hz, 100.0 * mode.damping_ratio, 100.0 * deviation.damping_ratio, mode.members.size(),
+                 partner ? std::to_string(at + 1) : "", known(partner ? ambient->modes[at].frequency_Hz : 0.0),
+                 known(partner ? ambient->modes[at].deviation.frequency_Hz : 0.0), known(partner ? partner->mac : 0.0)});
+    }
+    for (const identification::DecayResult::ByAmplitude& by : decay.by_amplitude) {
+      const Eigen::VectorXcd& shape = decay.found.modes[by.found].shape;
+      for (const identification::AmplitudePoint& point : by.points) {
+        levels.row({"free_decay", decay.conditioned.condition, decay.conditioned.setup, by.record, by.mode, point.amplitude,
+                    identification::quantity_at_largest(decay.conditioned.channels, shape), point.frequency_Hz,
+                    point.frequency_std_Hz, 100.0 * point.damping_ratio, 100.0 * point.damping_ratio_std, point.seconds});
+      }
+    }
+  }
+  for (const identification::AmbientAmplitude& ambient : identification::ambient_amplitudes(results, config)) {
+    const identification::MergedMode& mode = identification::condition_named(results, ambient.condition)->modes[ambient.mode];
+    levels.row({"ambient", ambient.condition, ambient.setup, "", std::to_string(ambient.mode + 1), ambient.amplitude,
+                ambient.quantity, mode.frequency_Hz, mode.deviation.frequency_Hz, 100.0 * mode.damping_ratio,
+                100.0 * mode.deviation.damping_ratio, ambient.seconds});
+  }
+  modes.save(folder / "decays.csv");
+  levels.save(folder / "amplitude.csv");
+}
+
+/// stays.csv: `stay,condition,harmonic,frequency_Hz,frequency_std_Hz,damping_ratio_pct,damping_ratio_std_pct`.
+/// stay_tensions.csv: `stay,condition,length_m,c_Hz,c_low_Hz,c_high_Hz,tension_per_mass_m2_s2,tension_per_mass_low_m2_s2,
+/// tension_per_mass_high_m2_s2,lambda_squared,lambda_squared_low,lambda_squared_high,xi,xi_low,xi_high,hinged_probability,
+/// clamped_probability,numbering_probability,residual,harmonics,level` (tension empty without a length, lambda² without the
+/// first harmonic).
+void write_stays(const std::vector<identification::StayResult>& stays, double level, const std::filesystem::path& folder) {
+  io::CsvWriter modes(
+      {"stay", "condition", "harmonic", "frequency_Hz", "frequency_std_Hz", "damping_ratio_pct", "damping_ratio_std_pct"});
+  std::vector<std::string> columns = {"stay", "condition", "length_m"};
+  using Names = std::pair<std::string, std::string>;  // of a quantity, its unit
+  for (const auto& [name, unit] :
+       {Names{"c", "_Hz"}, Names{"tension_per_mass", "_m2_s2"}, Names{"lambda_squared", ""}, Names{"xi", ""}}) {
+    for (const char* end : {"", "_low", "_high"}) columns.push_back(name + end + unit);
+  }
+  columns.insert(columns.end(),
+                 {"hinged_probability", "clamped_probability", "numbering_probability", "residual", "harmonics", "level"});
+  io::CsvWriter tensions(columns);
+  for (const identification::StayResult& stay : stays) {
+    for (const identification::StayResult::Mode& mode : stay.modes) {
+      modes.row({stay.stay, stay.condition, mode.harmonic, mode.frequency_Hz, mode.frequency_std_Hz, 100.0 * mode.damping_ratio,
+                 100.0 * mode.damping_ratio_std});
+    }
+    if (!stay.fitted) continue;
+    const identification::StayFit& fit = stay.fit;
+    const bool has_length = stay.length_m > 0.0;
+    std::vector<io::Cell> cells = {stay.stay, stay.condition, has_length ? std::optional(stay.length_m) : std::nullopt};
+    const auto add = [&](const identification::Bounded& of, bool known) {
+      for (const double value : {of.value, of.low, of.high}) cells.emplace_back(known ? std::optional(value) : std::nullopt);
+    };
+    add(fit.c_Hz, true);
+    add(fit.tension_per_mass, has_length);
+    add(fit.lambda_squared, stay.modes.front().harmonic == 1);
+    add(fit.xi, true);
+    cells.insert(cells.end(), {fit.hinged, fit.clamped, fit.numbering.probability, fit.residual, stay.modes.size(), level});
+    tensions.row(cells);
+  }
+  modes.save(folder / "stays.csv");
+  tensions.save(folder / "stay_tensions.csv");
+}
+
+/// Rows `stay_frequency_Hz` of features/rows.csv: channel = the stay, mode = the harmonic.
+std::vector<std::vector<io::Cell>> stay_rows(const std::vector<identification::StayResult>& stays) {
+  std::vector<std::vector<io::Cell>> rows;
+  for (const identification::StayResult& stay : stays) {
+    for (const identification::StayResult::Mode& mode : stay.modes) {
+      rows.push_back({"stay_frequency_Hz", std::to_string(mode.harmonic), stay.stay, stay.condition, mode.frequency_Hz,
+                      mode.frequency_std_Hz});
+    }
+  }
+  return rows;
+}
+
 }  // namespace
 
 void write_identification(const records::Campaign& campaign, const std::vector<identification::ConditionResult>& results,
@@ -277,105 +374,6 @@ std::vector<std::string> report_lines(const identification::ConditionResult& res
   return lines;
 }
 
-void write_decays(const std::vector<identification::DecayResult>& decays,
-                  const std::vector<identification::ConditionResult>& results,
-                  const identification::IdentificationSettings& config, const std::filesystem::path& folder) {
-  io::CsvWriter modes({"condition", "setup", "mode", "frequency_Hz", "frequency_std_Hz", "damping_ratio_pct",
-                       "damping_ratio_std_pct", "orders", "ambient_mode", "ambient_frequency_Hz", "ambient_frequency_std_Hz",
-                       "mac"});
-  io::CsvWriter levels({"source", "condition", "setup", "record", "mode", "amplitude", "quantity", "frequency_Hz",
-                        "frequency_std_Hz", "damping_ratio_pct", "damping_ratio_std_pct", "seconds"});
-  for (const identification::DecayResult& decay : decays) {
-    const identification::ConditionResult* ambient = identification::condition_named(results, decay.conditioned.condition);
-    for (std::size_t m = 0; m < decay.found.modes.size(); ++m) {
-      const identification::Cluster& mode = decay.found.modes[m];
-      const identification::ModeDeviation& deviation = decay.found.deviations[m];
-      const auto partner = identification::partner_of(mode, decay.conditioned.channels, ambient);
-      const auto known = [&](double value) { return partner ? std::optional(value) : std::nullopt; };
-      const std::size_t at = partner ? partner->mode : 0;
-      modes.row({decay.conditioned.condition, decay.conditioned.setup, std::to_string(m + 1), mode.frequency_Hz,
-                 deviation.frequency_Hz, 100.0 * mode.damping_ratio, 100.0 * deviation.damping_ratio, mode.members.size(),
-                 partner ? std::to_string(at + 1) : "", known(partner ? ambient->modes[at].frequency_Hz : 0.0),
-                 known(partner ? ambient->modes[at].deviation.frequency_Hz : 0.0), known(partner ? partner->mac : 0.0)});
-    }
-    for (const identification::DecayResult::ByAmplitude& by : decay.by_amplitude) {
-      const Eigen::VectorXcd& shape = decay.found.modes[by.found].shape;
-      for (const identification::AmplitudePoint& point : by.points) {
-        levels.row({"free_decay", decay.conditioned.condition, decay.conditioned.setup, by.record, by.mode, point.amplitude,
-                    identification::quantity_at_largest(decay.conditioned.channels, shape), point.frequency_Hz,
-                    point.frequency_std_Hz, 100.0 * point.damping_ratio, 100.0 * point.damping_ratio_std, point.seconds});
-      }
-    }
-  }
-  for (const identification::AmbientAmplitude& ambient : identification::ambient_amplitudes(results, config)) {
-    const identification::MergedMode& mode = identification::condition_named(results, ambient.condition)->modes[ambient.mode];
-    levels.row({"ambient", ambient.condition, ambient.setup, "", std::to_string(ambient.mode + 1), ambient.amplitude,
-                ambient.quantity, mode.frequency_Hz, mode.deviation.frequency_Hz, 100.0 * mode.damping_ratio,
-                100.0 * mode.deviation.damping_ratio, ambient.seconds});
-  }
-  modes.save(folder / "decays.csv");
-  levels.save(folder / "amplitude.csv");
-}
-
-void write_stays(const std::vector<identification::StayResult>& stays, double level, const std::filesystem::path& folder) {
-  io::CsvWriter modes(
-      {"stay", "condition", "harmonic", "frequency_Hz", "frequency_std_Hz", "damping_ratio_pct", "damping_ratio_std_pct"});
-  io::CsvWriter tensions({"stay",
-                          "condition",
-                          "length_m",
-                          "c_Hz",
-                          "c_low_Hz",
-                          "c_high_Hz",
-                          "tension_per_mass_m2_s2",
-                          "tension_per_mass_low_m2_s2",
-                          "tension_per_mass_high_m2_s2",
-                          "lambda_squared",
-                          "lambda_squared_low",
-                          "lambda_squared_high",
-                          "xi",
-                          "xi_low",
-                          "xi_high",
-                          "hinged_probability",
-                          "clamped_probability",
-                          "numbering_probability",
-                          "residual",
-                          "harmonics",
-                          "level"});
-  for (const identification::StayResult& stay : stays) {
-    for (const identification::StayResult::Mode& mode : stay.modes) {
-      modes.row({stay.stay, stay.condition, mode.harmonic, mode.frequency_Hz, mode.frequency_std_Hz, 100.0 * mode.damping_ratio,
-                 100.0 * mode.damping_ratio_std});
-    }
-    if (!stay.fitted) continue;
-    const identification::StayFit& fit = stay.fit;
-    const auto length = [&](double value) { return stay.length_m > 0.0 ? std::optional(value) : std::nullopt; };
-    const auto sag = [&](double value) { return stay.modes.front().harmonic == 1 ? std::optional(value) : std::nullopt; };
-    tensions.row({stay.stay,
-                  stay.condition,
-                  length(stay.length_m),
-                  fit.c_Hz.value,
-                  fit.c_Hz.low,
-                  fit.c_Hz.high,
-                  length(fit.tension_per_mass.value),
-                  length(fit.tension_per_mass.low),
-                  length(fit.tension_per_mass.high),
-                  sag(fit.lambda_squared.value),
-                  sag(fit.lambda_squared.low),
-                  sag(fit.lambda_squared.high),
-                  fit.xi.value,
-                  fit.xi.low,
-                  fit.xi.high,
-                  fit.hinged,
-                  fit.clamped,
-                  fit.numbering.probability,
-                  fit.residual,
-                  stay.modes.size(),
-                  level});
-  }
-  modes.save(folder / "stays.csv");
-  tensions.save(folder / "stay_tensions.csv");
-}
-
 std::vector<std::string> stay_lines(const std::vector<identification::StayResult>& stays, double level) {
   constexpr double kCertain = 0.9;  // probability that needs no word
   constexpr double kNarrow = 0.1;   // [-] of the value: an interval that needs no advice
@@ -397,17 +395,6 @@ std::vector<std::string> stay_lines(const std::vector<identification::StayResult
     lines.push_back(std::move(line));
   }
   return lines;
-}
-
-std::vector<std::vector<io::Cell>> stay_rows(const std::vector<identification::StayResult>& stays) {
-  std::vector<std::vector<io::Cell>> rows;
-  for (const identification::StayResult& stay : stays) {
-    for (const identification::StayResult::Mode& mode : stay.modes) {
-      rows.push_back({"stay_frequency_Hz", std::to_string(mode.harmonic), stay.stay, stay.condition, mode.frequency_Hz,
-                      mode.frequency_std_Hz});
-    }
-  }
-  return rows;
 }
 
 }  // namespace twindeck::steps
