@@ -53,10 +53,9 @@ struct ElementMatrix {
 [[nodiscard]] TetrahedronGeometry tetrahedron_geometry(const Model& model, const Element& element);
 /// Stiffness of a solid of four, eight, ten or twenty nodes, over its three degrees of freedom a node.
 [[nodiscard]] Eigen::MatrixXd solid_stiffness_of(const Model& model, const Element& element);
-/// Geometric stiffness of its stresses under `displacement` (3 a node, global axes), and its mass, over the same.
+/// Geometric stiffness of its stresses under `displacement` (3 a node, global axes), over the same.
 [[nodiscard]] Eigen::MatrixXd solid_geometric_stiffness_of(const Model& model, const Element& element,
                                                            const Eigen::VectorXd& displacement);
-[[nodiscard]] Eigen::MatrixXd solid_mass_of(const Model& model, const Element& element);
 /// Membrane part of a shell of three or four nodes, the drilling of the formulation's rule included (spread over the corners
 /// where the rule is diagonal); bending part. Over its six degrees of freedom a node.
 /// @param straight_sides  of this element, from sides_beside_four_nodes; used for triangles only
