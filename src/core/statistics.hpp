@@ -15,4 +15,11 @@ inline constexpr double kReachOfNinety = 1.645;
   return n % 2 == 1 ? values[n / 2] : 0.5 * (values[n / 2 - 1] + values[n / 2]);
 }
 
+/// The upper one of the two middle values where their number is even. @param values  at least one
+[[nodiscard]] inline double upper_median(std::vector<double> values) {
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
 }  // namespace twindeck

@@ -11,6 +11,7 @@
 #include <set>
 
 #include "core/error.hpp"
+#include "core/statistics.hpp"
 #include "dynamics/doubtful_mesh.hpp"
 
 namespace twindeck::dynamics {
@@ -192,13 +193,8 @@ std::vector<double> slenderness_of(const fe::Model& model) {
 
 std::optional<std::string> length_slip(const fe::Model& model) {
   const double span = span_of(model);
-  std::vector<double> slenderness = slenderness_of(model);
-  double middle = 0.0;
-  if (!slenderness.empty()) {
-    const auto half = slenderness.begin() + static_cast<std::ptrdiff_t>(slenderness.size() / 2);
-    std::nth_element(slenderness.begin(), half, slenderness.end());
-    middle = *half;
-  }
+  const std::vector<double> slenderness = slenderness_of(model);
+  const double middle = slenderness.empty() ? 0.0 : upper_median(slenderness);
   if (span > longest_structure_m || (span > long_structure_m && middle > slenderest_member))
     return fmt::format("the structure spans {:.4g} m{}: are the coordinates in mm? Give metres", span,
                        middle > 0.0

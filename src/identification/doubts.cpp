@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/statistics.hpp"
 #include "identification/sampling.hpp"
 
 namespace twindeck::identification {
@@ -39,8 +40,7 @@ void far_dampings(const ConditionResult& result, std::vector<std::string>& doubt
   if (result.modes.size() < kFewestModes) return;
   std::vector<double> all;
   for (const MergedMode& mode : result.modes) all.push_back(mode.damping_ratio);
-  std::nth_element(all.begin(), all.begin() + std::ssize(all) / 2, all.end());
-  const double median = all[all.size() / 2];
+  const double median = upper_median(all);
   for (std::size_t m = 0; m < result.modes.size(); ++m) {
     const double zeta = result.modes[m].damping_ratio, sure = kSure * result.modes[m].deviation.damping_ratio;
     if (zeta - sure < kFarDamping * median && zeta + sure > median / kFarDamping) continue;

@@ -10,6 +10,8 @@
 #include <optional>
 #include <utility>
 
+#include "core/statistics.hpp"
+
 namespace twindeck::identification {
 
 using Eigen::Index;
@@ -116,8 +118,7 @@ bool is_tone(const Eigen::Ref<const Eigen::VectorXd>& x) {
 double median_rms(const JudgedChannels& judged, const std::vector<ChannelQuality>& quality) {
   std::vector<double> rms;
   for (const Index c : judged.columns) rms.push_back(quality[static_cast<std::size_t>(c)].rms);
-  std::nth_element(rms.begin(), rms.begin() + std::ssize(rms) / 2, rms.end());
-  return rms[rms.size() / 2];
+  return upper_median(std::move(rms));
 }
 
 void judge_motion(const Samples& raw, const JudgedChannels& judged, std::vector<ChannelQuality>& quality) {

@@ -8,6 +8,8 @@
 #include <random>
 #include <vector>
 
+#include "core/statistics.hpp"
+
 namespace twindeck::identification {
 
 using Eigen::Index;
@@ -21,13 +23,6 @@ constexpr double kQuiet = 1.0 / 20.0;      // of the distance: a filtered pulse 
 constexpr double kSame = 0.5;              // of the distance: a sample that belongs to the same group
 constexpr Index kDrawn = 65536;            // samples that a median is taken of
 constexpr double kNormal = 1.4826;         // deviation of a normal distribution over its median absolute deviation
-
-/// @param values  not empty; their order is lost
-double median(std::vector<double>& values) {
-  const auto middle = values.begin() + std::ssize(values) / 2;
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
 
 /// The samples that are there; of a long record, as many as give the median within a hundredth of a deviation. They are drawn
 /// from a fixed seed: evenly spaced ones could keep step with a sine.
@@ -48,9 +43,9 @@ class Distance {
   explicit Distance(const Eigen::Ref<const Eigen::VectorXd>& x) : x_(x) {
     std::vector<double> values = drawn(x);
     if (values.empty()) return;
-    middle_ = median(values);
+    middle_ = upper_median(values);
     for (double& value : values) value = std::abs(value - middle_);
-    deviation_ = kNormal * median(values);
+    deviation_ = kNormal * upper_median(values);
     if (deviation_ > 0.0) return;
     for (Index t = 0; t < size(); ++t) {  // most samples are one count: the next count is the unit
       const double d = at(t);
@@ -72,7 +67,7 @@ bool is_quiet(const Distance& distance, Index first, Index step, double large) {
   for (Index k = 0, t = first; k < kAround && t >= 0 && t < distance.size(); ++k, t += step) {
     if (std::isfinite(distance.at(t))) side.push_back(distance.at(t));
   }
-  return side.empty() || (side.front() < kQuiet * large && median(side) < kQuiet * large);
+  return side.empty() || (side.front() < kQuiet * large && upper_median(side) < kQuiet * large);
 }
 
 bool stands_alone(const Distance& distance, Index t) {

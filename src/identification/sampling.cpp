@@ -6,6 +6,7 @@
 #include <cmath>
 #include <optional>
 
+#include "core/statistics.hpp"
 #include "signal/condition.hpp"
 #include "signal/fft.hpp"
 #include "signal/welch.hpp"
@@ -78,9 +79,8 @@ Spectrum whole(const std::vector<Samples>& records, double rate_Hz) {
 double reach_of(const Spectrum& spectrum) {
   constexpr double kShare = 1e-3, kChance = 4.0;  // [-] of the motion, and standard deviations of noise
   const Index n = spectrum.density.size();
-  std::vector<double> upper(spectrum.density.data() + n / 2, spectrum.density.data() + n);
-  std::nth_element(upper.begin(), upper.begin() + std::ssize(upper) / 2, upper.end());
-  const double floor = upper[upper.size() / 2] / std::log(2.0);  // mean of an exponential law from its median
+  const double* density = spectrum.density.data();
+  const double floor = upper_median({density + n / 2, density + n}) / std::log(2.0);  // mean of an exponential law
   const double all = spectrum.density.sum() - floor * static_cast<double>(n);
   double above = 0.0;
   for (Index i = n - 1; i > 0; --i) {
@@ -141,9 +141,7 @@ std::vector<double> spectral_peaks(const Eigen::VectorXd& frequency_Hz, const Ei
     if (f < lowest_Hz || (highest_Hz > 0.0 && f > highest_Hz) || s[i] < s[i - 1] || s[i] < s[i + 1]) continue;
     const Index reach = std::max<Index>(kFirstLine / 2, i / 4), from = std::max<Index>(1, i - reach);
     const Index to = std::min(s.size(), i + reach + 1);
-    std::vector<double> about(s.data() + from, s.data() + to);
-    std::nth_element(about.begin(), about.begin() + std::ssize(about) / 2, about.end());
-    if (s[i] > prominence * about[about.size() / 2]) peaks.push_back(f);
+    if (s[i] > prominence * upper_median({s.data() + from, s.data() + to})) peaks.push_back(f);
   }
   return peaks;
 }

@@ -10,6 +10,7 @@
 #include <set>
 
 #include "core/parallel.hpp"
+#include "core/statistics.hpp"
 #include "matching/pairing.hpp"
 
 namespace twindeck::diagnosis {
@@ -116,9 +117,7 @@ double frequency_scatter(const std::vector<MeasuredShape>& measured, const Visib
   for (std::size_t i = 0; i < measured.size(); ++i)
     if (nearest.explained[i]) off.push_back(std::abs(std::log(modes.frequency_Hz[nearest.mode[i]] / measured[i].frequency_Hz)));
   if (off.empty()) return most_within;
-  const auto middle = off.begin() + static_cast<std::ptrdiff_t>(off.size() / 2);
-  std::nth_element(off.begin(), middle, off.end());
-  return std::clamp(2.0 * *middle / 0.6745, least_within, most_within);
+  return std::clamp(2.0 * upper_median(off) / 0.6745, least_within, most_within);
 }
 
 namespace {
