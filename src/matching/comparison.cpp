@@ -15,8 +15,6 @@ namespace {
 
 using Eigen::Index;
 
-std::optional<double> known(double value) { return std::isnan(value) ? std::nullopt : std::optional<double>(value); }
-
 const std::string& label(const Measured& measured, Index i) { return measured.labels[static_cast<std::size_t>(i)]; }
 
 void sort_by_measured(std::vector<ModePair>& pairs) {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <cmath>
 #include <limits>
 #include <optional>
 #include <string>
@@ -12,6 +13,10 @@
 namespace twindeck::matching {
 
 inline constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();  ///< a number that a file leaves empty
+/// Empty for kUnknown, as a file has it.
+[[nodiscard]] inline std::optional<double> known(double value) {
+  return std::isnan(value) ? std::nullopt : std::optional<double>(value);
+}
 
 /// A measuring channel of channels.csv: its position and direction.
 struct Channel {

@@ -10,8 +10,7 @@ namespace twindeck::steps {
 namespace {
 
 using Eigen::Index;
-
-std::optional<double> known(double value) { return std::isnan(value) ? std::nullopt : std::optional<double>(value); }
+using matching::known;
 
 const std::string& label(const matching::Measured& measured, Index i) { return measured.labels[static_cast<std::size_t>(i)]; }
 

@@ -7,6 +7,7 @@
 #include <set>
 
 #include "io/csv.hpp"
+#include "matching/measured.hpp"
 #include "matching/solved_model.hpp"
 #include "model_io/names.hpp"
 #include "ponte/generator.hpp"
@@ -141,7 +142,7 @@ void write_mesh_convergence(const runner::Study& study, const std::string& varia
   };
   const matching::SolvedModel own = solved(study.model_mesh);
   io::CsvWriter csv({"mesh", "degrees_of_freedom", "mode", "frequency_Hz", "change_pct", "mac"});
-  const auto known = [](double value) { return std::isnan(value) ? std::nullopt : std::optional<double>(value); };
+  using matching::known;
   const auto write = [&](const std::string& mesh, const matching::SolvedModel& model) {
     const Eigen::Index count = std::min<Eigen::Index>(n_modes, own.modes.frequency_Hz.size());  // a small model may have fewer
     const matching::TrackedModes followed = follow(own, model, count);

@@ -115,7 +115,7 @@ matching::PairingAccount compare_with_measurement(runner::StepContext& context, 
 void write_changes(const ponte::ChangeStudy& study, const std::filesystem::path& folder) {
   io::CsvWriter csv({"change", "paper_item", "meaning", "mode", "frequency_before_Hz", "frequency_alone_Hz", "effect_alone_pct",
                      "effect_cumulative_pct", "mac_alone", "mac_cumulative"});
-  const auto known = [](double value) { return std::isnan(value) ? std::nullopt : std::optional<double>(value); };
+  using matching::known;
   for (const ponte::ChangeEffect& effect : study.effects) {
     for (Eigen::Index i = 0; i < study.before_Hz.size(); ++i) {
       const double before = study.before_Hz[i], alone = effect.alone.frequency_Hz[i];
