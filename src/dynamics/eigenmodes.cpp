@@ -4,7 +4,6 @@
 #include <numbers>
 #include <utility>
 
-#include "dynamics/free_structure.hpp"
 #include "linalg/generalized_eigen.hpp"
 
 namespace twindeck::dynamics {

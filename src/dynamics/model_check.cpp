@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include "dynamics/free_structure.hpp"
+#include "dynamics/eigenmodes.hpp"
 #include "fe/definite.hpp"
 #include "fe/mechanism.hpp"
 #include "linalg/cholesky.hpp"

@@ -8,8 +8,8 @@
 
 #include "core/error.hpp"
 #include "core/statistics.hpp"
-#include "identification/leading_svd.hpp"
 #include "identification/ssi_data.hpp"
+#include "identification/state_space.hpp"
 #include "linalg/dense.hpp"
 
 namespace twindeck::identification {

@@ -10,8 +10,8 @@
 #include <utility>
 
 #include "core/error.hpp"
-#include "identification/leading_svd.hpp"
 #include "identification/ssi_cov.hpp"
+#include "identification/state_space.hpp"
 #include "linalg/dense.hpp"
 #include "matching/pairing.hpp"
 

@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "core/error.hpp"
-#include "identification/leading_svd.hpp"
+#include "identification/state_space.hpp"
 
 namespace twindeck::identification {
 

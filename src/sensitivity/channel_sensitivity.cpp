@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "core/parallel.hpp"
-#include "dynamics/free_structure.hpp"
+#include "dynamics/eigenmodes.hpp"
 #include "linalg/block_lanczos.hpp"
 #include "linalg/cholesky.hpp"
 #include "linalg/dense.hpp"

@@ -10,7 +10,7 @@
 
 #include "core/error.hpp"
 #include "core/parallel.hpp"
-#include "dynamics/free_structure.hpp"
+#include "dynamics/eigenmodes.hpp"
 #include "linalg/dense.hpp"
 
 namespace twindeck::diagnosis {

@@ -1,6 +1,4 @@
 // Oracles: matrices that are built from chosen triplets; the defining equations A v = sigma u, Aᵀ u = sigma v.
-#include "identification/leading_svd.hpp"
-
 #include <gtest/gtest.h>
 
 #include <Eigen/QR>
@@ -8,6 +6,7 @@
 
 #include "../signal/noise.hpp"
 #include "core/error.hpp"
+#include "identification/state_space.hpp"
 
 namespace twindeck::identification {
 namespace {

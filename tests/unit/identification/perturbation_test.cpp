@@ -4,7 +4,6 @@
 #include <gtest/gtest.h>
 
 #include "chain.hpp"
-#include "identification/leading_svd.hpp"
 #include "identification/ssi_cov.hpp"
 #include "identification/state_space.hpp"
 

@@ -9,7 +9,7 @@
 #include "calibration.hpp"
 #include "core/error.hpp"
 #include "identification/identify.hpp"
-#include "identification/leading_svd.hpp"
+#include "identification/state_space.hpp"
 #include "signal/condition.hpp"
 
 namespace twindeck::identification {

@@ -1,11 +1,11 @@
 // Oracles: the criteria of paper section 3.1 by hand, on either side of each bound; a zero change is stable (limit).
-#include "identification/stabilisation.hpp"
-
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <complex>
 #include <limits>
+
+#include "identification/clustering.hpp"
 
 namespace twindeck::identification {
 namespace {

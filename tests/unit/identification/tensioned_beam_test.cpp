@@ -1,13 +1,13 @@
 // Oracles: the closed forms of a string, of a hinged beam under tension and of a clamped beam without tension; Irvine's
 // equation; the formula of Mehrabi and Tabatabai (1998), ASCE Journal of Structural Engineering 124, 1313-1322, for clamped
 // stays; a beam of 120 cubic elements with the sag's term, solved once by an eigenvalue solver of SciPy.
-#include "identification/tensioned_beam.hpp"
-
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <numbers>
 #include <vector>
+
+#include "identification/stay_posterior.hpp"
 
 namespace twindeck::identification {
 namespace {
