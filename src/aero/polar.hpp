@@ -38,13 +38,14 @@ class Polar {
   bool linear_ = false;
 };
 
-/// Quasi-steady derivatives from a polar, the arm of the rotational rate mu = 0 or as given (Zasso's form):
+/// Flutter derivatives of quasi-steady theory, computed from a polar, in Zasso's form:
 ///   h1 = C_L' + C_D, h3 = C_L', h5 = 2C_L;  p1 = C_D' - C_L, p3 = C_D', p5 = 2C_D;  a1 = a3 = C_M', a5 = 2C_M;
-///   h2 = mu_L h1, p2 = mu_D p1, a2 = mu_M a1; the rest zero.
+///   h2 = mu_L h1, p2 = mu_D p1, a2 = mu_M a1; the rest are zero.
+/// The arm mu says at which point of the chord a rotation acts like a heave or a sway. It is 0 unless it is given.
 class QuasiSteady : public FlutterDerivatives {
  public:
   struct Arms {
-    double drag = 0.0, lift = 0.0, moment = 0.0;  ///< mu over B
+    double drag = 0.0, lift = 0.0, moment = 0.0;  ///< mu_D, mu_L, mu_M, each divided by the chord B
   };
   QuasiSteady(Polar polar, const Arms& arms);
   [[nodiscard]] DerivativeBlock at(double alpha_rad, double v_over_omegaB) const override;
