@@ -41,7 +41,7 @@ class Polar {
 /// Flutter derivatives of quasi-steady theory, computed from a polar, in Zasso's form:
 ///   h1 = C_L' + C_D, h3 = C_L', h5 = 2C_L;  p1 = C_D' - C_L, p3 = C_D', p5 = 2C_D;  a1 = a3 = C_M', a5 = 2C_M;
 ///   h2 = mu_L h1, p2 = mu_D p1, a2 = mu_M a1; the rest are zero.
-/// The arm mu says at which point of the chord a rotation acts like a heave or a sway. It is 0 unless it is given.
+/// A rate of rotation acts like the velocity of the point of the chord at the distance mu from the axis, 0 unless it is given.
 class QuasiSteady : public FlutterDerivatives {
  public:
   struct Arms {

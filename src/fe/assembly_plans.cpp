@@ -31,14 +31,19 @@ ElementMatrix beam_axial(const Model& model, int i) {
   return beam_with(e, geometry, ends);
 }
 
-/// The rest: bending, shear and torsion.
-ElementMatrix beam_transverse(const Model& model, int i) {
-  const Element& e = element_at(model, i);
+/// A beam without its area: nothing is left along its axis.
+std::pair<BeamGeometry, TaperedProperties> without_area(const Model& model, const Element& e) {
   BeamGeometry geometry = beam_geometry(model, e);
   geometry.releases &= static_cast<std::uint16_t>(~axial_releases);
   TaperedProperties ends = beam_end_properties(model, e);
   ends.end1.area_m2 = ends.end2.area_m2 = 0.0;
-  return beam_with(e, geometry, ends);
+  return {geometry, ends};
+}
+
+/// The rest: bending, shear and torsion.
+ElementMatrix beam_transverse(const Model& model, int i) {
+  const auto [geometry, ends] = without_area(model, element_at(model, i));
+  return beam_with(element_at(model, i), geometry, ends);
 }
 
 ElementMatrix bar_axial(const Model& model, int i) {
@@ -77,12 +82,8 @@ ElementMatrix whole(const Model& model, int i) { return element_mass(model, elem
 
 /// Part of a beam's mass that does not go with its area: the inertia of the section about its own axes.
 ElementMatrix beam_rotary(const Model& model, int i) {
-  const Element& e = element_at(model, i);
-  TaperedProperties ends = beam_end_properties(model, e);
-  ends.end1.area_m2 = ends.end2.area_m2 = 0.0;
-  BeamGeometry geometry = beam_geometry(model, e);
-  geometry.releases &= static_cast<std::uint16_t>(~((1U << 0) | (1U << 6)));  // nothing is left along the axis
-  return beam_mass_of(model, e, geometry, ends);
+  const auto [geometry, ends] = without_area(model, element_at(model, i));
+  return beam_mass_of(model, element_at(model, i), geometry, ends);
 }
 
 ElementMatrix beam_translational(const Model& model, int i) {
