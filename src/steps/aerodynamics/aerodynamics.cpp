@@ -47,16 +47,14 @@ void write_critical(const std::vector<aero::CriticalRow>& rows, const Aerodynami
                      "ratio_to_A", "f_cr_over_f1", "deck", "theta_rms_deg", "deck_share", "exponent", "V_cr_single_mode_m_s",
                      "V_den_hartog_m_s", "V_divergence_m_s", "status"});
   for (const aero::CriticalRow& row : rows) {
-    using Number = std::optional<double>;
     const auto a = speed_of_A.find(row.set);
-    const bool found = row.point.has_value();
+    const aero::CriticalPoint at = row.point.value_or(aero::CriticalPoint{});
+    const auto found = [&](double value) { return row.point ? std::optional<double>(value) : std::nullopt; };
     csv.row({row.set, row.model, row.group, row.description, on_off(row.dampers), 100.0 * row.structural_damping,
-             found ? io::Cell(row.point->mode) : io::Cell(""), found ? Number(row.point->speed_m_s) : Number(),
-             found ? Number(row.point->frequency_Hz) : Number(),
-             found && a != speed_of_A.end() ? Number(row.point->speed_m_s / a->second) : Number(),
-             found ? Number(row.point->frequency_Hz / row.point->still_air_frequency_Hz) : Number(), row.character.deck,
-             found ? Number(row.character.theta_rms_rad * degrees) : Number(),
-             found ? Number(row.character.deck_share) : Number(), found ? Number(row.character.exponent) : Number(),
+             row.point ? io::Cell(at.mode) : "", found(at.speed_m_s), found(at.frequency_Hz),
+             a != speed_of_A.end() ? found(at.speed_m_s / a->second) : std::nullopt,
+             found(at.frequency_Hz / at.still_air_frequency_Hz), row.character.deck,
+             found(row.character.theta_rms_rad * degrees), found(row.character.deck_share), found(row.character.exponent),
              row.single_mode_m_s, row.den_hartog_m_s, row.divergence_m_s, status_of(row, config.max_speed_m_s)});
   }
   csv.save(file);
@@ -135,11 +133,10 @@ void write_equations(const std::filesystem::path& file) {
 
 /// galloping.csv: Den Hartog's sum C_L' + C_D of each deck over the polar's angles, and h1* over reduced velocity (Fig. 19).
 /// From -4 to 4 degrees and from 1 to 20, as far as polar and table reach.
-void write_galloping(const std::vector<std::string>& sets, const std::vector<std::vector<aero::SectionAero>>& sections,
-                     const std::filesystem::path& file) {
+void write_galloping(const std::vector<aero::FittedSet>& sets, const std::filesystem::path& file) {
   io::CsvWriter csv({"set", "deck", "angle_of_attack_deg", "V_over_fB", "h1", "den_hartog"});
-  for (std::size_t s = 0; s < sets.size(); ++s) {
-    for (const aero::SectionAero& section : sections[s]) {
+  for (const aero::FittedSet& set : sets) {
+    for (const aero::SectionAero& section : set.sections) {
       for (const double alpha : {-4.0, -2.0, 0.0, 2.0, 4.0}) {
         if (!section.polar.covers(alpha / degrees)) continue;
         for (double v = 1.0; v <= 20.0; v += 0.5) {
@@ -148,7 +145,7 @@ void write_galloping(const std::vector<std::string>& sets, const std::vector<std
           const aero::StaticCoefficients c = section.polar.at(alpha / degrees);
           const auto zasso =
               aero::from_block(aero::Convention::zasso, section.derivatives->at(alpha / degrees, v_omega), v_omega);
-          csv.row({sets[s], section.name, alpha, v, zasso[0], c.lift_slope + c.drag});
+          csv.row({set.name, section.name, alpha, v, zasso[0], c.lift_slope + c.drag});
         }
       }
     }
@@ -156,14 +153,13 @@ void write_galloping(const std::vector<std::string>& sets, const std::vector<std
   csv.save(file);
 }
 
-void write_polars(const std::vector<std::string>& sets, const std::vector<std::vector<aero::SectionAero>>& sections,
-                  const std::filesystem::path& file) {
+void write_polars(const std::vector<aero::FittedSet>& sets, const std::filesystem::path& file) {
   io::CsvWriter csv({"set", "deck", "angle_of_attack_deg", "C_D", "C_L", "C_M"});
-  for (std::size_t s = 0; s < sets.size(); ++s) {
-    for (const aero::SectionAero& section : sections[s]) {
+  for (const aero::FittedSet& set : sets) {
+    for (const aero::SectionAero& section : set.sections) {
       for (const double alpha : section.polar.alpha_rad()) {
         const aero::StaticCoefficients c = section.polar.at(alpha);
-        csv.row({sets[s], section.name, alpha * degrees, c.drag, c.lift, c.moment});
+        csv.row({set.name, section.name, alpha * degrees, c.drag, c.lift, c.moment});
       }
     }
   }
@@ -196,12 +192,8 @@ std::string fitted_quantity(const std::string& set) { return set == "standin" ? 
 /// summary.csv.
 void write_tables(const AerodynamicsConfig& config, const aero::WindModel& model, const WindOutcome& found,
                   const std::filesystem::path& folder) {
-  std::vector<std::string> names;
-  std::vector<std::vector<aero::SectionAero>> sections;
   io::CsvWriter levels({"set", "level", "fitted_quantity", "fitted_model", "fitted_speed_m_s"});
   for (const aero::FittedSet& set : found.sets) {
-    names.push_back(set.name);
-    sections.push_back(set.sections);
     levels.row({set.name, set.level, fitted_quantity(set.name), config.fit_model, config.fit_speed_m_s});
   }
   levels.save(folder / "sets.csv");
@@ -211,8 +203,8 @@ void write_tables(const AerodynamicsConfig& config, const aero::WindModel& model
   write_static(found.statics, model.strips, folder / "static.csv");
   write_rules(config, folder / "rules.csv");
   write_equations(folder / "equations.csv");
-  write_galloping(names, sections, folder / "galloping.csv");
-  write_polars(names, sections, folder / "polars.csv");
+  write_galloping(found.sets, folder / "galloping.csv");
+  write_polars(found.sets, folder / "polars.csv");
   write_summary(config, model, found, folder / "summary.csv");
 }
 
