@@ -58,9 +58,8 @@ fe::Section square_hollow_section(const std::string& name, double side_m, double
 /// A, I_y, I_z, J and the shear areas times a factor: an effective section, fitted.
 fe::Section scaled(fe::Section section, double factor) {
   for (double* value : {&section.area_m2, &section.inertia_y_m4, &section.inertia_z_m4, &section.torsion_m4,
-                        &section.shear_area_y_m2, &section.shear_area_z_m2}) {
+                        &section.shear_area_y_m2, &section.shear_area_z_m2})
     *value *= factor;
-  }
   return section;
 }
 
@@ -144,9 +143,7 @@ StayRow read_stay_row(DefinitionFile& file, const std::string& path, const std::
 std::vector<SlabZone> read_slab(DefinitionFile& file, const std::string& deck, const std::vector<std::string>& materials) {
   const std::string slab = "deck." + deck + ".slab";
   const std::vector<std::string> zones = file.texts(slab + ".zones");
-  if (zones.empty()) {
-    file.fail(slab + ".zones", "has no zone", "name at least one");
-  }
+  if (zones.empty()) file.fail(slab + ".zones", "has no zone", "name at least one");
   std::vector<SlabZone> out;
   double reached = 0.0;
   for (const std::string& zone : zones) {
@@ -264,9 +261,7 @@ DeckPoint read_point(DefinitionFile& file, const std::string& path, const DeckDe
 
 const DeckDefinition& deck_of(DefinitionFile& file, const std::string& path, const std::vector<DeckDefinition>& decks) {
   std::vector<std::string> names;
-  for (const DeckDefinition& deck : decks) {
-    names.push_back(deck.name);
-  }
+  for (const DeckDefinition& deck : decks) names.push_back(deck.name);
   const std::string name = file.choice(path, names);
   return *std::find_if(decks.begin(), decks.end(), [&](const DeckDefinition& deck) { return deck.name == name; });
 }
@@ -279,9 +274,8 @@ DamperDefinition read_damper(DefinitionFile& file, const std::string& path, cons
   out.series = file.choice(path + ".arrangement", {"series", "parallel", "viscous"}) == "series";
   out.vertical = file.choice(path + ".direction", {"vertical", "radial"}) == "vertical";
   const DeckDefinition& deck = deck_of(file, path + ".deck", decks);
-  for (std::size_t i = 0; i < file.size(path + ".units"); ++i) {
+  for (std::size_t i = 0; i < file.size(path + ".units"); ++i)
     out.units.push_back(read_point(file, path + ".units." + std::to_string(i), deck));
-  }
   return out;
 }
 
@@ -294,9 +288,7 @@ ParameterDefinition read_parameter(DefinitionFile& file, const std::string& path
                                                      {"spring_stiffness", fe::Target::spring_stiffness},
                                                      {"point_mass", fe::Target::point_mass}};
   std::vector<std::string> names;
-  for (const auto& [name, target] : targets) {
-    names.push_back(name);
-  }
+  for (const auto& [name, target] : targets) names.push_back(name);
   return {file.text(path + ".name"), targets.at(file.choice(path + ".target", names)), file.texts(path + ".of"),
           file.number(path + ".bound", "", {0.0, 0.99})};
 }
@@ -305,11 +297,8 @@ ParameterDefinition read_parameter(DefinitionFile& file, const std::string& path
 std::vector<std::string> stay_names(const BridgeDefinition& definition) {
   std::vector<std::string> out;
   for (const DeckDefinition& deck : definition.decks) {
-    for (const std::string& prefix : {deck.stay.prefix_north, deck.stay.prefix_south}) {
-      for (int i = 1; i <= deck.stay.count; ++i) {
-        out.push_back(prefix + std::to_string(i));
-      }
-    }
+    for (const std::string& prefix : {deck.stay.prefix_north, deck.stay.prefix_south})
+      for (int i = 1; i <= deck.stay.count; ++i) out.push_back(prefix + std::to_string(i));
   }
   out.push_back("BN");
   out.push_back("BS");
@@ -320,9 +309,8 @@ void read_site_pulls(DefinitionFile& file, BridgeDefinition& out) {
   const std::vector<std::string> stays = stay_names(out);
   for (const std::string& name : file.names_below("site_pull")) {
     const std::string path = "site_pull." + name;
-    if (std::find(stays.begin(), stays.end(), name) == stays.end()) {
+    if (std::find(stays.begin(), stays.end(), name) == stays.end())
       file.fail(path, "is no stay of this bridge" + did_you_mean(name, stays), "name a stay such as NE5");
-    }
     const double pull = file.number(path, "N", kPull);
     out.site_pull_N[name] = pull;
     // The bridge is symmetric about mid-length: N… and S… are mirror images, BN and BS too.
@@ -336,9 +324,8 @@ void read_site_pulls(DefinitionFile& file, BridgeDefinition& out) {
 }  // namespace
 
 void offer_optional_keys(DefinitionFile& file) {
-  for (const std::string deck : {"foot", "cycle"}) {
+  for (const std::string deck : {"foot", "cycle"})
     for (const std::string key : {"bottom_chord_spacing", "slab_height"}) file.offer_number("deck." + deck + "." + key, 0.0);
-  }
 }
 
 BridgeDefinition read_definition(DefinitionFile file) {
@@ -357,12 +344,8 @@ BridgeDefinition read_definition(DefinitionFile file) {
     materials.push_back(name);
   }
   const std::vector<std::string> stay_types = file.names_below("stay_type");
-  for (const std::string& name : stay_types) {
-    out.stay_types.push_back(read_stay_type(file, name));
-  }
-  for (const std::string name : {"foot", "cycle"}) {
-    out.decks.push_back(read_deck(file, name, materials, stay_types));
-  }
+  for (const std::string& name : stay_types) out.stay_types.push_back(read_stay_type(file, name));
+  for (const std::string name : {"foot", "cycle"}) out.decks.push_back(read_deck(file, name, materials, stay_types));
   out.mast = read_mast(file);
   out.ground_cables = {file.choice("ground_cable.type", stay_types),
                        {file.number("ground_cable.x", "m", kCoordinate), file.number("ground_cable.y", "m", kCoordinate),
@@ -373,23 +356,19 @@ BridgeDefinition read_definition(DefinitionFile file) {
     out.materials.push_back(kRigid);
     out.ends = read_ends(file);
   }
-  if (file.has("aerodynamics")) {
-    out.aerodynamic_nodes = static_cast<int>(file.integer("aerodynamics.nodes_per_deck", 2, 1000));
-  }
+  if (file.has("aerodynamics")) out.aerodynamic_nodes = static_cast<int>(file.integer("aerodynamics.nodes_per_deck", 2, 1000));
   out.minimum_pull_N = file.number("prestress.minimum_pull", "N", {0.0, 1e8});
   out.ridge = file.number("prestress.ridge", "", {0.0, 1e3});
   out.site_weight = file.number("prestress.site_weight", "", {0.0, 1e3});
   read_site_pulls(file, out);
-  for (std::size_t i = 0; i < file.size("damper"); ++i) {
+  for (std::size_t i = 0; i < file.size("damper"); ++i)
     out.dampers.push_back(read_damper(file, "damper." + std::to_string(i), out.decks));
-  }
   for (std::size_t i = 0; i < file.size("monitoring_point"); ++i) {
     const std::string path = "monitoring_point." + std::to_string(i);
     out.monitoring_points.push_back(read_point(file, path, deck_of(file, path + ".deck", out.decks)));
   }
-  for (std::size_t i = 0; i < file.size("parameter"); ++i) {
+  for (std::size_t i = 0; i < file.size("parameter"); ++i)
     out.parameters.push_back(read_parameter(file, "parameter." + std::to_string(i)));
-  }
   file.refuse_unknown();
   return out;
 }

@@ -40,9 +40,8 @@ ChangeStudy study_changes(const std::filesystem::path& bridge_toml, const std::s
 
   ChangeStudy study;
   study.before_Hz = models[0].modes.frequency_Hz.head(n_modes);
-  for (const matching::SolvedModel& model : models) {
+  for (const matching::SolvedModel& model : models)
     if (!model.modes.status.converged && study.status.converged) study.status = model.modes.status;
-  }
   std::vector<int> position;  // of each preliminary mode in the last cumulative state
   for (int i = 0; i < n_modes; ++i) position.push_back(i);
   const matching::SolvedModel* last = &models[0];

@@ -47,20 +47,16 @@ DeckNodes build_nodes(ModelBuilder& builder, const DeckDefinition& deck, const M
   };
   for (std::size_t k = 0; k < station.size(); ++k) {
     add_line(station[k], true);
-    for (int i = 1; k + 1 < station.size() && i < mesh.shells_per_panel_along; ++i) {
+    for (int i = 1; k + 1 < station.size() && i < mesh.shells_per_panel_along; ++i)
       add_line(station[k] + (station[k + 1] - station[k]) * i / mesh.shells_per_panel_along, false);
-    }
   }
   return out;
 }
 
 const SlabZone& zone_at(const DeckDefinition& deck, double s_m) {
   const double reach = std::abs(s_m) / (deck.length_m / 2);
-  for (const SlabZone& zone : deck.slab) {
-    if (reach < zone.until) {
-      return zone;
-    }
-  }
+  for (const SlabZone& zone : deck.slab)
+    if (reach < zone.until) return zone;
   return deck.slab.back();
 }
 
@@ -81,17 +77,14 @@ void build_truss(ModelBuilder& builder, const DeckDefinition& deck, const MeshDe
   const DeckAxis axis(deck);
   const std::string d = deck.name;
   const auto& lines = nodes.lines;
-  for (std::size_t k = 0; k + 1 < lines.size(); ++k) {
-    for (const std::size_t edge : {0u, 1u}) {
+  for (std::size_t k = 0; k + 1 < lines.size(); ++k)
+    for (const std::size_t edge : {0u, 1u})
       builder.add_element(fe::ElementType::beam, d + "_top_chord", "steel", {lines[k].chord[edge], lines[k + 1].chord[edge]});
-    }
-  }
   const std::size_t step = static_cast<std::size_t>(mesh.shells_per_panel_along);
   for (std::size_t k = 0; k < lines.size(); k += step) {
     const DeckNodes::Line& line = lines[k];
-    for (std::size_t j = 0; j + 1 < line.across.size(); ++j) {
+    for (std::size_t j = 0; j + 1 < line.across.size(); ++j)
       builder.add_element(fe::ElementType::beam, d + "_floor_beam", "steel", {line.across[j], line.across[j + 1]});
-    }
     const auto diagonals = [&](const std::string& section, const DeckNodes::Line& top, const Eigen::Vector3d& orientation) {
       builder.add_member(section, line.bottom.front(), top.chord.front(), mesh.members_per_panel, orientation);
       builder.add_member(section, line.bottom.back(), top.chord.back(), mesh.members_per_panel, orientation);
@@ -101,16 +94,11 @@ void build_truss(ModelBuilder& builder, const DeckDefinition& deck, const MeshDe
     // Long diagonals rise away from mid-length, at mid-length both ways.
     const double tolerance = 1e-6 * deck.length_m;
     if (k + step < lines.size()) {
-      for (std::size_t i = 0; i < line.bottom.size(); ++i) {
+      for (std::size_t i = 0; i < line.bottom.size(); ++i)
         builder.add_member(d + "_bottom_chord", line.bottom[i], lines[k + step].bottom[i], mesh.members_per_panel);
-      }
-      if (line.s_m > -tolerance) {
-        diagonals(d + "_long_diagonal", lines[k + step], Eigen::Vector3d::Zero());
-      }
+      if (line.s_m > -tolerance) diagonals(d + "_long_diagonal", lines[k + step], Eigen::Vector3d::Zero());
     }
-    if (k >= step && line.s_m < tolerance) {
-      diagonals(d + "_long_diagonal", lines[k - step], Eigen::Vector3d::Zero());
-    }
+    if (k >= step && line.s_m < tolerance) diagonals(d + "_long_diagonal", lines[k - step], Eigen::Vector3d::Zero());
   }
 }
 
@@ -136,9 +124,7 @@ void build_bottom_plane(ModelBuilder& builder, const DeckDefinition& deck, const
 
 // Half of the mass on each edge line, lumped without rotary inertia.
 void build_nonstructural_mass(ModelBuilder& builder, const DeckDefinition& deck, const DeckNodes& nodes) {
-  if (deck.nonstructural_mass_kg_m == 0.0) {
-    return;
-  }
+  if (deck.nonstructural_mass_kg_m == 0.0) return;
   const auto& lines = nodes.lines;
   for (std::size_t k = 0; k < lines.size(); ++k) {
     const double before = k > 0 ? lines[k].s_m - lines[k - 1].s_m : 0.0;
@@ -176,9 +162,8 @@ void build_brackets(ModelBuilder& builder, const DeckDefinition& deck, DeckNodes
 
 DeckNodes build_deck(ModelBuilder& builder, const DeckDefinition& deck, const MeshDefinition& mesh) {
   for (const fe::Section& section :
-       {deck.top_chord, deck.bottom_chord, deck.short_diagonal, deck.long_diagonal, deck.floor_beam}) {
+       {deck.top_chord, deck.bottom_chord, deck.short_diagonal, deck.long_diagonal, deck.floor_beam})
     builder.add_section(section);
-  }
   for (const SlabZone& zone : deck.slab) {
     fe::Section section;
     section.name = zone.group;
@@ -197,11 +182,8 @@ DeckNodes build_deck(ModelBuilder& builder, const DeckDefinition& deck, const Me
 
 const DeckNodes::Line& DeckNodes::station_near(double s_m) const {
   const Line* best = nullptr;
-  for (const Line& line : lines) {
-    if (!line.bottom.empty() && (best == nullptr || std::abs(line.s_m - s_m) < std::abs(best->s_m - s_m))) {
-      best = &line;
-    }
-  }
+  for (const Line& line : lines)
+    if (!line.bottom.empty() && (best == nullptr || std::abs(line.s_m - s_m) < std::abs(best->s_m - s_m))) best = &line;
   TWINDECK_ASSERT(best != nullptr);
   return *best;
 }
@@ -227,9 +209,7 @@ Eigen::Vector3d DeckAxis::tangent(double s_m) const { return {std::cos(s_m / rad
 
 std::vector<double> stay_positions(const StayRow& stay) {
   std::vector<double> out;
-  for (int i = 1; i < stay.count; ++i) {
-    out.push_back((i - 0.5) * stay.spacing_m);
-  }
+  for (int i = 1; i < stay.count; ++i) out.push_back((i - 0.5) * stay.spacing_m);
   out.push_back(out.back() + stay.last_spacing_m);
   return out;
 }
@@ -243,9 +223,7 @@ std::vector<double> stations(const DeckDefinition& deck, int panels_per_stay_spa
     const double start = half.back();
     // The small number keeps a spacing that is a whole multiple of the panel from being divided once more by rounding.
     const int panels = static_cast<int>(std::ceil((end - start) / longest - 1e-9));
-    for (int i = 1; i <= panels; ++i) {
-      half.push_back(start + (end - start) * i / panels);
-    }
+    for (int i = 1; i <= panels; ++i) half.push_back(start + (end - start) * i / panels);
   }
   std::vector<double> out;
   std::transform(half.rbegin(), std::prev(half.rend()), std::back_inserter(out), [](double s) { return -s; });

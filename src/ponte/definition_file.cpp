@@ -26,9 +26,7 @@ std::string without_positions(const std::string& path) {
     const std::size_t end = std::min(path.find('.', begin), path.size());
     const std::string part = path.substr(begin, end - begin);
     const bool position = !part.empty() && std::all_of(part.begin(), part.end(), [](char c) { return c >= '0' && c <= '9'; });
-    if (!position) {
-      out += (out.empty() ? "" : ".") + part;
-    }
+    if (!position) out += (out.empty() ? "" : ".") + part;
     begin = end + 1;
   }
   return out;
@@ -41,21 +39,16 @@ struct Flattener {
   DefinitionFile& out;
 
   void table(const io::TomlValue::Table& entries, const std::string& path) {
-    for (const io::TomlEntry& entry : entries) {
-      walk(entry.value, path.empty() ? entry.key : path + "." + entry.key);
-    }
+    for (const io::TomlEntry& entry : entries) walk(entry.value, path.empty() ? entry.key : path + "." + entry.key);
   }
 
   void walk(const io::TomlValue& node, const std::string& path) {
-    if (const auto* entries = node.as<io::TomlValue::Table>()) {
+    if (const auto* entries = node.as<io::TomlValue::Table>())
       table(*entries, path);
-    } else if (const auto* list = node.as<io::TomlValue::Array>()) {
-      for (std::size_t i = 0; i < list->size(); ++i) {
-        walk((*list)[i], path + "." + std::to_string(i));
-      }
-    } else {
+    else if (const auto* list = node.as<io::TomlValue::Array>())
+      for (std::size_t i = 0; i < list->size(); ++i) walk((*list)[i], path + "." + std::to_string(i));
+    else
       leaf(node, path);
-    }
   }
 
   void leaf(const io::TomlValue& node, const std::string& path) {
@@ -72,9 +65,8 @@ struct Flattener {
       throw InputError({out.file_, value.line, path}, "is " + io::shown(node) + ", neither a number nor a text",
                        "give a number, or a text such as \"35 GPa\"");
     }
-    if (!out.values_.emplace(path, value).second) {
+    if (!out.values_.emplace(path, value).second)
       throw InputError({out.file_, value.line, path}, "is given twice", "keep one of the two");
-    }
   }
 };
 
@@ -91,11 +83,8 @@ void DefinitionFile::fail(const std::string& path, const std::string& problem, c
 
 std::vector<std::string> DefinitionFile::paths_below(const std::string& table) const {
   std::vector<std::string> paths;
-  for (const auto& [path, value] : values_) {
-    if (below(path, table)) {
-      paths.push_back(path);
-    }
-  }
+  for (const auto& [path, value] : values_)
+    if (below(path, table)) paths.push_back(path);
   return paths;
 }
 
@@ -104,15 +93,10 @@ DefinitionFile::Value& DefinitionFile::find(const std::string& path) {
   if (found == values_.end()) {
     // A misspelt neighbour is the likeliest cause: look among the keys that nobody has asked for.
     std::vector<std::string> open;
-    for (const auto& [other, value] : values_) {
-      if (!value.known) {
-        open.push_back(other);
-      }
-    }
+    for (const auto& [other, value] : values_)
+      if (!value.known) open.push_back(other);
     const std::string near = nearest_name(path, open);
-    if (!near.empty()) {
-      fail(near, fmt::format("is an unknown key, and '{}' is missing", path), "correct its name");
-    }
+    if (!near.empty()) fail(near, fmt::format("is an unknown key, and '{}' is missing", path), "correct its name");
     fail(path, "is missing", "add this key");
   }
   found->second.known = true;
@@ -132,17 +116,14 @@ double DefinitionFile::number(const std::string& path, const std::string& unit, 
 
 long DefinitionFile::integer(const std::string& path, long lower, long upper) {
   const double value = number(path, "", {static_cast<double>(lower), static_cast<double>(upper)});
-  if (value != std::floor(value)) {
+  if (value != std::floor(value))
     fail(path, fmt::format("is {:g}, expected a whole number", value), "give a number without a fraction");
-  }
   return static_cast<long>(value);
 }
 
 std::string DefinitionFile::text(const std::string& path) {
   const Value& value = find(path);
-  if (!value.is_text) {
-    fail(path, "is the number " + value.text + ", expected a text", "put it between quotes");
-  }
+  if (!value.is_text) fail(path, "is the number " + value.text + ", expected a text", "put it between quotes");
   return value.text;
 }
 
@@ -158,17 +139,13 @@ std::string DefinitionFile::choice(const std::string& path, const std::vector<st
 
 std::vector<std::string> DefinitionFile::texts(const std::string& path) {
   std::vector<std::string> out;
-  for (std::size_t i = 0; i < size(path); ++i) {
-    out.push_back(text(path + "." + std::to_string(i)));
-  }
+  for (std::size_t i = 0; i < size(path); ++i) out.push_back(text(path + "." + std::to_string(i)));
   return out;
 }
 
 std::vector<double> DefinitionFile::numbers(const std::string& path, const std::string& unit, Range range) {
   std::vector<double> out;
-  for (std::size_t i = 0; i < size(path); ++i) {
-    out.push_back(number(path + "." + std::to_string(i), unit, range));
-  }
+  for (std::size_t i = 0; i < size(path); ++i) out.push_back(number(path + "." + std::to_string(i), unit, range));
   return out;
 }
 
@@ -197,19 +174,14 @@ std::vector<std::string> DefinitionFile::names_below(const std::string& path) co
 
 std::size_t DefinitionFile::size(const std::string& path) const {
   std::size_t count = 0;
-  while (has(path + "." + std::to_string(count))) {
-    ++count;
-  }
+  while (has(path + "." + std::to_string(count))) ++count;
   return count;
 }
 
 void DefinitionFile::check_overrides(const std::string& table) {
   std::vector<std::string> bridge;
-  for (const auto& [path, value] : values_) {
-    if (!path.starts_with("change.") && !path.starts_with("variant")) {
-      bridge.push_back(path);
-    }
-  }
+  for (const auto& [path, value] : values_)
+    if (!path.starts_with("change.") && !path.starts_with("variant")) bridge.push_back(path);
   for (const std::string& key : paths_below(table)) {
     const std::string target = key.substr(table.size() + 1);
     if (std::find(bridge.begin(), bridge.end(), target) == bridge.end()) {
@@ -253,11 +225,8 @@ long DefinitionFile::line_of(const std::string& path) const {
 
 void DefinitionFile::refuse_unknown() const {
   std::set<std::string> known;
-  for (const auto& [path, value] : values_) {
-    if (value.known) {
-      known.insert(without_positions(path));
-    }
-  }
+  for (const auto& [path, value] : values_)
+    if (value.known) known.insert(without_positions(path));
   for (const auto& [path, value] : values_) {
     if (!value.known) {
       const std::vector<std::string> names(known.begin(), known.end());

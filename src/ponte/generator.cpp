@@ -22,9 +22,7 @@ std::string entry(const std::string& list, std::size_t i) { return list + "." + 
 
 std::vector<std::string> names_in(DefinitionFile& file, const std::string& list) {
   std::vector<std::string> out;
-  for (std::size_t i = 0; i < file.size(list); ++i) {
-    out.push_back(file.text(entry(list, i) + ".name"));
-  }
+  for (std::size_t i = 0; i < file.size(list); ++i) out.push_back(file.text(entry(list, i) + ".name"));
   return out;
 }
 
@@ -51,15 +49,11 @@ std::vector<Change> read_changes(DefinitionFile& file) {
 DefinitionFile open(const std::filesystem::path& bridge_toml) {
   DefinitionFile file = DefinitionFile::load(bridge_toml);
   offer_optional_keys(file);
-  for (const std::string list : {"change", "variant", "mesh_option"}) {
-    for (std::size_t i = 0; i < file.size(list); ++i) {
-      file.check_overrides(entry(list, i) + ".set");
-    }
-  }
+  for (const std::string list : {"change", "variant", "mesh_option"})
+    for (std::size_t i = 0; i < file.size(list); ++i) file.check_overrides(entry(list, i) + ".set");
   (void)read_changes(file);
-  for (const std::string key : {".name", ".meaning"}) {
+  for (const std::string key : {".name", ".meaning"})
     for (std::size_t i = 0; i < file.size("mesh_option"); ++i) (void)file.text(entry("mesh_option", i) + key);
-  }
   for (std::size_t i = 0; i < file.size("variant"); ++i) {
     (void)file.text(entry("variant", i) + ".meaning");
     (void)file.text(entry("variant", i) + ".based_on");
@@ -87,17 +81,11 @@ void apply_variant(DefinitionFile& file, const std::string& variant, std::size_t
   const std::vector<std::string> names = names_in(file, "variant");
   const std::string path = entry("variant", position(file, "variant", names, variant));
   const std::string base = file.text(path + ".based_on");
-  if (depth > names.size()) {
+  if (depth > names.size())
     file.fail(path + ".based_on", "leads back to the variant itself", "let one variant have based_on = \"\"");
-  }
-  if (!base.empty()) {
-    apply_variant(file, base, depth + 1);
-  }
-  if (file.text(path + ".changes") == "all") {
-    for (std::size_t i = 0; i < file.size("change"); ++i) {
-      file.apply(entry("change", i) + ".set");
-    }
-  }
+  if (!base.empty()) apply_variant(file, base, depth + 1);
+  if (file.text(path + ".changes") == "all")
+    for (std::size_t i = 0; i < file.size("change"); ++i) file.apply(entry("change", i) + ".set");
   file.apply(path + ".set");
 }
 
@@ -151,18 +139,13 @@ void add_prestress(fe::Model& model, const BridgeDefinition& definition, const s
   model.prestress.minimum_pull_N = definition.minimum_pull_N;
   model.prestress.ridge = definition.ridge;
   model.prestress.site_weight = definition.site_weight;
-  for (const auto& [name, deck] : decks) {
-    for (const auto& [stay, bracket] : deck.anchors) {
-      model.prestress.conditions.push_back({bracket, 2});
-    }
-  }
+  for (const auto& [name, deck] : decks)
+    for (const auto& [stay, bracket] : deck.anchors) model.prestress.conditions.push_back({bracket, 2});
   model.prestress.conditions.push_back({mast.top(), 0});
   model.prestress.conditions.push_back({mast.top(), 1});
   for (fe::Element& element : model.elements) {
     const auto pull = definition.site_pull_N.find(element.name);
-    if (element.type == fe::ElementType::stay && pull != definition.site_pull_N.end()) {
-      element.pull_N = pull->second;
-    }
+    if (element.type == fe::ElementType::stay && pull != definition.site_pull_N.end()) element.pull_N = pull->second;
   }
 }
 
@@ -185,9 +168,7 @@ fe::Model build(const BridgeDefinition& definition, const std::string& title) {
   builder.model.title = definition.title + ", " + title;
   builder.model.gravity_m_s2 = definition.gravity_m_s2;
   builder.model.source = definition.source;
-  for (const fe::Material& material : definition.materials) {
-    builder.add_material(material);
-  }
+  for (const fe::Material& material : definition.materials) builder.add_material(material);
   std::map<std::string, DeckNodes> decks;
   for (const DeckDefinition& deck : definition.decks) decks[deck.name] = build_deck(builder, deck, definition.mesh);
   const EndNodes ends = build_ends(builder, definition);

@@ -16,17 +16,11 @@ std::set<double> heights(const BridgeDefinition& definition) {
   const MastDefinition& mast = definition.mast;
   std::set<double> wanted(mast.node_z_m.begin(), mast.node_z_m.end());
   wanted.insert({mast.base_m.z(), mast.base_m.z() + mast.height_m, mast.infill_z_m, definition.ground_cables.mast_z_m});
-  for (const DeckDefinition& deck : definition.decks) {
-    for (int i = 0; i < deck.stay.count; ++i) {
-      wanted.insert(deck.stay.top_anchor_z_m - i * deck.stay.anchor_pitch_m);
-    }
-  }
+  for (const DeckDefinition& deck : definition.decks)
+    for (int i = 0; i < deck.stay.count; ++i) wanted.insert(deck.stay.top_anchor_z_m - i * deck.stay.anchor_pitch_m);
   std::set<double> out;
-  for (const double z : wanted) {
-    if (out.empty() || z - *out.rbegin() > kSameHeight_m) {
-      out.insert(z);
-    }
-  }
+  for (const double z : wanted)
+    if (out.empty() || z - *out.rbegin() > kSameHeight_m) out.insert(z);
   return out;
 }
 
@@ -60,9 +54,8 @@ MastNodes build_mast(ModelBuilder& builder, const BridgeDefinition& definition) 
   for (auto below = out.by_z.begin(), above = std::next(below); above != out.by_z.end(); ++below, ++above) {
     const std::vector<int> nodes = {below->second, above->second};
     builder.add_element(fe::ElementType::beam, "mast_steel", "steel", nodes, Eigen::Vector3d::UnitX());
-    if (above->first <= mast.infill_z_m + kSameHeight_m) {
+    if (above->first <= mast.infill_z_m + kSameHeight_m)
       builder.add_element(fe::ElementType::beam, "mast_infill", "concrete_normal", nodes, Eigen::Vector3d::UnitX());
-    }
   }
   fe::PointMass head;
   head.group = "mast_head_mass";

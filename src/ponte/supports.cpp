@@ -33,9 +33,8 @@ EndFrame frame_of(const std::vector<DeckDefinition>& decks, bool north) {
   }
   frame.along.normalize();
   frame.across = {-frame.along.y(), frame.along.x(), 0.0};
-  if (!north) {  // the bridge is symmetric about mid-length
+  if (!north)  // the bridge is symmetric about mid-length
     for (Vector3d* v : {&frame.origin_m, &frame.along, &frame.across}) v->x() *= -1.0;
-  }
   return frame;
 }
 
@@ -43,9 +42,7 @@ EndFrame frame_of(const std::vector<DeckDefinition>& decks, bool north) {
 /// them at a point.
 int connect_face(ModelBuilder& builder, const Vector3d& point_m, const std::vector<int>& corners) {
   const int node = builder.add_node(point_m);
-  for (const int corner : corners) {
-    builder.add_element(fe::ElementType::beam, "rigid_connection", "rigid", {node, corner});
-  }
+  for (const int corner : corners) builder.add_element(fe::ElementType::beam, "rigid_connection", "rigid", {node, corner});
   return node;
 }
 
@@ -114,9 +111,8 @@ void build_ramp(ModelBuilder& builder, const EndDefinition& ends, const EndFrame
     const int next =
         builder.add_node(frame.at(begin + part * ends.ramp_length_m, 0.0, high + part * (ends.ramp_end_z_m - high)));
     builder.add_member("ramp", last, next, ends.beams_per_span, Vector3d::Zero(), ends.material);
-    if (span < ends.ramp_spans) {
+    if (span < ends.ramp_spans)
       build_pier(builder, "ramp_pier", "ramp_pier_" + side + "_" + std::to_string(span), next, frame.along, ends);
-    }
     last = next;
   }
   fix(builder, "abutment_" + side, last);
@@ -166,11 +162,8 @@ void build_dampers(ModelBuilder& builder, const BridgeDefinition& definition, co
       spring.name = unit.name;
       spring.group = "damper_" + damper.type;
       spring.node = unit.outer_edge ? line.across.back() : line.across.front();
-      for (const DeckDefinition& deck : definition.decks) {
-        if (deck.name == unit.deck && !damper.vertical) {
-          spring.direction = DeckAxis(deck).radial(line.s_m);
-        }
-      }
+      for (const DeckDefinition& deck : definition.decks)
+        if (deck.name == unit.deck && !damper.vertical) spring.direction = DeckAxis(deck).radial(line.s_m);
       spring.stiffness = damper.stiffness_N_m;
       spring.damping = damper.damping_N_s_m;
       spring.series = damper.series;

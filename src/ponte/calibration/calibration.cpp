@@ -22,16 +22,13 @@ updating::StructureData data_of(const Calibration& calibration, const Calibratio
   out.frequencies.modes = target.modes;
   out.frequencies.frequency_Hz = Eigen::Map<const VectorXd>(target.frequency_Hz.data(), std::ssize(target.frequency_Hz));
   out.frequencies.std = calibration.frequency_std;
-  for (const CalibrationForces& forces : calibration.forces) {
+  for (const CalibrationForces& forces : calibration.forces)
     for (std::size_t i = 0; forces.variant == target.variant && i < forces.stays.size(); ++i)
       out.forces.push_back({forces.stays[i], forces.force_N[i], forces.relative_std * forces.force_N[i]});
-  }
-  for (const CalibrationMass& mass : calibration.masses) {
+  for (const CalibrationMass& mass : calibration.masses)
     if (mass.variant == target.variant) out.masses.push_back(mass.known);
-  }
-  for (const CalibrationLimit& limit : calibration.limits) {
+  for (const CalibrationLimit& limit : calibration.limits)
     if (limit.variant == target.variant) out.limits.push_back(limit.limit);
-  }
   return out;
 }
 
@@ -42,9 +39,8 @@ bool acts(const Calibration& calibration, const CalibrationValue& value, const s
     if (path.starts_with("change.")) return variant != "preliminary";
     if (variant == "preliminary") return true;
     for (const CalibrationValue& other : calibration.values) {
-      for (const std::string& changed : other.paths) {
+      for (const std::string& changed : other.paths)
         if (changed.starts_with("change.") && changed.ends_with("." + path)) return false;
-      }
     }
     return true;
   });

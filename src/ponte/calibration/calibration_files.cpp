@@ -140,9 +140,8 @@ void for_each_force(const Calibration& calibration, const std::string& variant, 
 template <typename Write>
 void for_each_mass(const Calibration& calibration, const std::string& variant, const Write& write) {
   Index row = 0;
-  for (const CalibrationMass& mass : calibration.masses) {
+  for (const CalibrationMass& mass : calibration.masses)
     if (mass.variant == variant) write(mass, row++);
-  }
 }
 
 std::string used_kinds(const CalibrationTrial& trial) {
@@ -176,9 +175,8 @@ std::vector<std::string> trade_columns(const Calibration& calibration) {
     });
   }
   for (const CalibrationTarget& target : calibration.targets) {
-    for (const CalibrationLimit& limit : calibration.limits) {
+    for (const CalibrationLimit& limit : calibration.limits)
       if (limit.variant == target.variant) out.push_back(limit.variant + "_anchors_mm");
-    }
   }
   for (const std::string& kind : kKinds) out.push_back("cost_" + kind);
   out.push_back("cost_values");
@@ -333,9 +331,8 @@ void TradeTable::add(const CalibrationTrial& trial, const std::string& mesh, con
     for_each_mass(calibration, calibration.targets[t].variant,
                   [&](const CalibrationMass&, Index row) { cells.emplace_back(result.answers[t].mass_kg_m[row]); });
   }
-  for (std::size_t t = 0; t < calibration.targets.size(); ++t) {
+  for (std::size_t t = 0; t < calibration.targets.size(); ++t)
     if (result.answers[t].displacement_m.size() > 0) cells.emplace_back(1e3 * largest(result.answers[t].displacement_m));
-  }
   for (const double cost : result.costs) cells.emplace_back(cost);
   cells.emplace_back(static_cast<long>(result.iterations));
   cells.emplace_back(result.status.converged ? "yes" : "no");

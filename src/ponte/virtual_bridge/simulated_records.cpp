@@ -36,9 +36,8 @@ struct LoadedNode {
 
 int head_of_mast(const fe::Model& model) {
   int head = 0;
-  for (std::size_t i = 0; i < model.nodes.size(); ++i) {
+  for (std::size_t i = 0; i < model.nodes.size(); ++i)
     if (model.nodes[i].x_m.z() > model.nodes[static_cast<std::size_t>(head)].x_m.z()) head = static_cast<int>(i);
-  }
   return head;
 }
 
@@ -48,9 +47,8 @@ std::vector<LoadedNode> loaded_nodes(const ConditionSettings& condition, const B
   std::vector<LoadedNode> loaded;
   for (const int node : nodes_of(state, points)) loaded.push_back({node, condition.force_deck});
   loaded.push_back({head_of_mast(state.chains.model), condition.force_mast});
-  for (const auto& [name, nodes] : state.chains.nodes) {
+  for (const auto& [name, nodes] : state.chains.nodes)
     for (std::size_t k = 1; k + 1 < nodes.size(); ++k) loaded.push_back({nodes[k], condition.force_stay});
-  }
   return loaded;
 }
 
@@ -244,9 +242,8 @@ MatrixXd logged_record(const Motion& motion, const CampaignSettings& settings, s
   constexpr std::uint64_t kLoggerStreams = 1000;  // beyond the loads' streams, which have one a record
   MatrixXd out = motion.acceleration_m_s2;
   const sensors::LoggerErrors errors{settings.noise, settings.converter_step, settings.range, settings.drift};
-  for (Index c = 0; c < out.cols(); ++c) {
+  for (Index c = 0; c < out.cols(); ++c)
     out.col(c) = sensors::logged(out.col(c), errors, seed, kLoggerStreams * (record + 1) + static_cast<std::uint64_t>(c));
-  }
   return out;
 }
 

@@ -105,9 +105,8 @@ StayRecord stay_record(const fe::Model& model, const StayTest& test, const Campa
   VectorXd omega;
   MatrixXd shapes;
   solve(chain, test.pull_N, omega, shapes);
-  for (std::size_t i = 0; i < test.imposed_Hz.size() && static_cast<Index>(i) < kModes; ++i) {
+  for (std::size_t i = 0; i < test.imposed_Hz.size() && static_cast<Index>(i) < kModes; ++i)
     omega[static_cast<Index>(i)] = 2.0 * std::numbers::pi * test.imposed_Hz[i];
-  }
 
   StayRecord record;
   record.truth = {omega / (2.0 * std::numbers::pi), test.pull_N / chain.mass_per_length,

@@ -94,9 +94,8 @@ void refuse_stale_corrections(const CampaignSettings& settings, const BridgeStat
 constexpr double kBound = 0.5;  // of the parameters, relative
 
 std::string deck_of(const std::string& group) {
-  for (const std::string deck : {"foot", "cycle"}) {
+  for (const std::string deck : {"foot", "cycle"})
     if (group.starts_with(deck + "_")) return deck;
-  }
   return "";
 }
 
@@ -264,9 +263,8 @@ constexpr double kMovesDecks = 0.5;  ///< [-] of the kinetic energy in stays: a 
 /// The modes that calibration starts from: the so many-th of those with less than half of their kinetic energy in the stays.
 std::vector<Index> starting_modes(const BridgeState& state, const CampaignSettings& settings) {
   std::vector<Index> deck;
-  for (Index j = 0; j < state.stay_share.size(); ++j) {
+  for (Index j = 0; j < state.stay_share.size(); ++j)
     if (state.stay_share[j] < kMovesDecks) deck.push_back(j);
-  }
   std::vector<Index> named;
   for (const NamedMode& mode : settings.named) {
     if (mode.deck_mode > std::ssize(deck)) {
