@@ -36,16 +36,6 @@ std::vector<std::string> split(const std::string& names) {
   return out;
 }
 
-/// "34", "2.5": no more decimals than asked for, zeros at the end left out.
-std::string metres(double value, int decimals) {
-  std::string text = fmt::format("{:.{}f}", value, decimals);
-  if (text.find('.') != std::string::npos) {
-    text.erase(text.find_last_not_of('0') + 1);
-    if (text.back() == '.') text.pop_back();
-  }
-  return text == "-0" ? "0" : text;
-}
-
 Vector3d middle_of(const std::vector<Vector3d>& points) {
   Vector3d sum = Vector3d::Zero();
   for (const Vector3d& x : points) sum += x;
@@ -146,7 +136,7 @@ std::string PlaceWords::coordinates(const Vector3d& x) const {
   std::string out;
   for (int k = 0; k < 3; ++k)
     if (shown_[static_cast<std::size_t>(k)])
-      out += fmt::format("{}{} = {} m", out.empty() ? "" : ", ", "xyz"[k], metres(x[k], decimals_));
+      out += fmt::format("{}{} = {} m", out.empty() ? "" : ", ", "xyz"[k], with_decimals(x[k], decimals_));
   return out;
 }
 
@@ -162,7 +152,7 @@ std::string PlaceWords::near(const Vector3d& x) const {
   }
   if (nearest == nullptr) return "";
   if (least <= kSamePoint * extent_m_) return ", at " + nearest->words;
-  return fmt::format(", {} m from {}", metres(least, std::max(decimals_, 1)), nearest->words);
+  return fmt::format(", {} m from {}", with_decimals(least, std::max(decimals_, 1)), nearest->words);
 }
 
 PlaceWords::Points PlaceWords::distinct(const Points& points) const {

@@ -27,17 +27,21 @@ std::string plain(double size, int digits) {
   const int before = static_cast<int>(std::floor(std::log10(size))) + 1;
   const double step = std::pow(10.0, before - digits), rounded = std::round(size / step) * step;
   if (rounded >= 1000.0) return in_threes(std::lround(rounded));
-  std::string text = fmt::format("{:.{}f}", rounded, std::max(0, digits - before));
-  if (text.find('.') != std::string::npos) {
-    text.erase(text.find_last_not_of('0') + 1);
-    if (text.back() == '.') text.pop_back();
-  }
-  return text;
+  return with_decimals(rounded, std::max(0, digits - before));
 }
 
 bool part_of_a_name(char c) { return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_' || c == '+' || c == '-'; }
 
 }  // namespace
+
+std::string with_decimals(double value, int decimals) {
+  std::string text = fmt::format("{:.{}f}", value, decimals);
+  if (text.find('.') != std::string::npos) {
+    text.erase(text.find_last_not_of('0') + 1);
+    if (text.back() == '.') text.pop_back();
+  }
+  return text == "-0" ? "0" : text;
+}
 
 std::string number_in_words(double value, int digits) {
   if (!std::isfinite(value)) return "unknown";

@@ -7,6 +7,9 @@
 /// Numbers, lists and ids as a sentence for people has them.
 namespace twindeck::diagnosis {
 
+/// "34", "2.5": no more decimals than asked for, zeros at the end left out.
+[[nodiscard]] std::string with_decimals(double value, int decimals);
+
 /// Significant digits (three, since sizes are known to a per cent at best): "0.612", "434", "18,500", "5.4 million".
 [[nodiscard]] std::string number_in_words(double value, int digits = 3);
 

@@ -1,6 +1,7 @@
 #include "steps/sensitivity/outputs.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
@@ -23,9 +24,7 @@ bool is_resolved(const sensitivity::Identifiability& identified, const Sensitivi
 }
 
 std::string joined(const std::vector<std::string>& names) {
-  std::string text;
-  for (const std::string& name : names) text += (text.empty() ? "" : ", ") + name;
-  return text.empty() ? "none" : text;
+  return names.empty() ? "none" : fmt::format("{}", fmt::join(names, ", "));
 }
 
 // Largest difference in a column over the column's largest entry, worst of all columns.
