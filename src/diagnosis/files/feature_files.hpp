@@ -1,7 +1,9 @@
 #pragma once
 
 #include <filesystem>
+#include <vector>
 
+#include "diagnosis/evidence.hpp"
 #include "diagnosis/features/features.hpp"
 #include "diagnosis/reduction/structure.hpp"
 #include "records/measured_features.hpp"
@@ -25,5 +27,9 @@ void refuse_slack_stays(const FeatureSet& features, const Places& places, const 
 /// @throws InputError  naming the line of conditions.toml, for a condition whose `load` is no load case of the model's
 /// loads.csv
 void refuse_unknown_loads(const std::filesystem::path& folder, const std::filesystem::path& model);
+
+/// Claims of a features folder; none where the file is not there.
+/// @throws InputError with file, line and column
+[[nodiscard]] std::vector<Claim> read_claims(const std::filesystem::path& folder);
 
 }  // namespace twindeck::diagnosis

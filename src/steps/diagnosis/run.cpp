@@ -14,7 +14,6 @@
 #include "diagnosis/evidence.hpp"
 #include "diagnosis/features/features.hpp"
 #include "diagnosis/files/catalogue_files.hpp"
-#include "diagnosis/files/claims_file.hpp"
 #include "diagnosis/files/damper_places.hpp"
 #include "diagnosis/files/feature_files.hpp"
 #include "diagnosis/files/load_test_files.hpp"

@@ -10,7 +10,6 @@
 #include <filesystem>
 
 #include "chain.hpp"
-#include "diagnosis/files/claims_file.hpp"
 #include "diagnosis/files/feature_files.hpp"
 #include "records/measured_tables.hpp"
 #include "test_places.hpp"
