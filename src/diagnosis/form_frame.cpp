@@ -113,7 +113,7 @@ MatrixXd form_covariance(const FeatureMap& map, const FeatureMap::Base& base, co
   const FormColumns form = form_columns(modes.structures, modes.paired, predicted);
   MatrixXd all(predicted.size(), form.frequency.cols() + form.shape.cols() + form.kinks.cols());
   all << frequency * form.frequency, shape * form.shape, shape * form.kinks;
-  return linalg::product(all, all.transpose());
+  return linalg::square(all);
 }
 
 }  // namespace twindeck::diagnosis

@@ -27,7 +27,7 @@ VectorXd pick(const VectorXd& from, const std::vector<int>& rows) { return from(
 MatrixXd total_factor_of(const MatrixXd& sigma, const Eigen::Ref<const MatrixXd>& jacobian, const MatrixXd& scales) {
   MatrixXd all(jacobian.rows(), jacobian.cols() + scales.cols());
   all << jacobian, kScaleDeviation * scales;
-  return linalg::cholesky_factor(sigma + linalg::product(all, all.transpose()));
+  return linalg::cholesky_factor(sigma + linalg::square(all));
 }
 
 /// Magnitudes of causes in units of twice their range about its middle, where the prior of deviation 1 is as good as uniform

@@ -50,16 +50,20 @@ std::pair<VectorXd, double> open_modes(const FeatureMap& map, const Prediction& 
 
 /// Columns of a covariance, as many as its rank.
 MatrixXd columns_of(const MatrixXd& covariance) {
-  const Eigen::LDLT<MatrixXd> factor(covariance);
+  std::vector<int> rows;  // the others have no share in it
+  for (Index r = 0; r < covariance.rows(); ++r)
+    if (covariance(r, r) > 0.0) rows.push_back(static_cast<int>(r));
+  const Eigen::LDLT<MatrixXd> factor(covariance(rows, rows));
   const VectorXd d = factor.vectorD();
   std::vector<int> kept;
   for (Index k = 0; k < d.size(); ++k)
     if (d[k] > kNoVariance * d.maxCoeff()) kept.push_back(static_cast<int>(k));
   const MatrixXd lower = factor.matrixL();
-  return factor.transpositionsP().transpose() * MatrixXd(lower(Eigen::all, kept) * d(kept).cwiseSqrt().asDiagonal());
+  MatrixXd out = MatrixXd::Zero(covariance.rows(), std::ssize(kept));
+  out(rows, Eigen::all) =
+      factor.transpositionsP().transpose() * MatrixXd(lower(Eigen::all, kept) * d(kept).cwiseSqrt().asDiagonal());
+  return out;
 }
-
-MatrixXd covariance_of(const MatrixXd& columns) { return linalg::product(columns, columns.transpose()); }
 
 /// Covariance along a contrast of what has independent increments, a Wiener process that starts where the contrast is nil:
 /// smooth changes are among them, and those that turn (n_rows × n_rows). What all conditions share is the form error's.
@@ -111,7 +115,7 @@ LawSystem law_system(const Inference& plain, const Fit& fit, const std::vector<C
   const MatrixXd fixed =
       beside({j(Eigen::all, known), kWideScale * fit.map.scales, rotations(rows, Eigen::all)}, std::ssize(rows));
   LawSystem out;
-  out.sigma = plain.covariance() + linalg::product(fixed, fixed.transpose());
+  out.sigma = plain.covariance() + linalg::square(fixed);
   const auto [variance, log_prior] = open_modes(map, fit.all);
   out.sigma.diagonal() += variance(rows);
   out.log_prior = log_prior;
@@ -122,9 +126,9 @@ LawSystem law_system(const Inference& plain, const Fit& fit, const std::vector<C
   }
   const MatrixXd shape = kUnitOfClasses * form.shape(rows, Eigen::all);
   out.classes = {kUnitOfClasses * form.frequency(rows, Eigen::all),
-                 shape.cols() > shape.rows() ? columns_of(covariance_of(shape)) : shape,
+                 shape.cols() > shape.rows() ? columns_of(linalg::square(shape)) : shape,
                  kUnitOfClasses * form.kinks(rows, Eigen::all), std::move(gain)};
-  const MatrixXd all = covariance_of(beside({out.classes[kFrequencies], shape, out.classes[kKinks]}, std::ssize(rows)));
+  const MatrixXd all = linalg::square(beside({out.classes[kFrequencies], shape, out.classes[kKinks]}, std::ssize(rows)));
   for (const Contrast& contrast : contrasts) {
     const MatrixXd share = along(contrast, map.features(), rows);
     out.classes.push_back(share.size() > 0 ? columns_of(all.cwiseProduct(share)) : MatrixXd(all.rows(), 0));

@@ -64,8 +64,7 @@ std::vector<std::pair<double, int>> gains_of_opening(const LawSystem& system, co
                                                      const LawEvidence& at, const std::vector<OpenRows>& modes) {
   MatrixXd sigma = system.sigma;
   for (std::size_t c = 0; c < system.classes.size(); ++c)
-    if (const double tau = at.tau[static_cast<Index>(c)]; tau > 0.0)
-      sigma += tau * tau * linalg::product(system.classes[c], system.classes[c].transpose());
+    if (const double tau = at.tau[static_cast<Index>(c)]; tau > 0.0) sigma += tau * tau * linalg::square(system.classes[c]);
   const MatrixXd lower = linalg::cholesky_factor(std::move(sigma));
   std::vector<std::pair<double, int>> out;
   if (lower.size() == 0) return out;

@@ -9,7 +9,6 @@
 #include "core/parallel.hpp"
 #include "diagnosis/form_frame.hpp"
 #include "diagnosis/form_magnitudes.hpp"
-#include "linalg/dense.hpp"
 
 namespace twindeck::diagnosis {
 
@@ -19,11 +18,10 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-const double kOddsOfAChange = std::log(0.1);  // of all causes of a contrast against nothing, of "something else", of channels
-constexpr double kLeftPart = 0.1;             // of a cause's effect: scale of what it leaves over in its contrast …
-constexpr double kPerCent = 100.0;            // units of a class in a relative effect
-const double kShrinks[] = {0.0, 1.5, 3.0};    // of ln tau: a large cause leaves smaller errors than nothing does
-constexpr double kShows = 1e-3;               // deviations: below, these rows show nothing of an entry
+constexpr double kLeftPart = 0.1;           // of a cause's effect: scale of what it leaves over in its contrast …
+constexpr double kPerCent = 100.0;          // units of a class in a relative effect
+const double kShrinks[] = {0.0, 1.5, 3.0};  // of ln tau: a large cause leaves smaller errors than nothing does
+constexpr double kShows = 1e-3;             // deviations: below, these rows show nothing of an entry
 
 double log_sum_of(const VectorXd& v) {
   const double top = v.maxCoeff();
@@ -78,7 +76,6 @@ class Screen {
       value[c] = law_.log_posterior(other, search_.something_else[c].tau);
     });
     for (std::size_t c = 0; c < value.size(); ++c) {
-      search_.else_weight.push_back(search_.something_else[c].log_evidence + kOddsOfAChange);
       add_point(search_.something_else[c], value[c], static_cast<int>(c));
     }
   }
@@ -93,8 +90,8 @@ class Screen {
     for (const ScreenPoint& point : points_) {
       const OneLaw::Point at = law_.at(point.tau);
       if (at.lower.size() == 0) continue;
-      const VectorXd residual = linalg::lower_solve(at.lower, residual_);
-      const MatrixXd signatures = linalg::lower_solve(at.lower, signatures_);
+      const VectorXd residual = law_.solved(at, residual_);
+      const MatrixXd signatures = law_.solved(at, signatures_);
       const VectorXd along = signatures.transpose() * residual, square = signatures.colwise().squaredNorm();
       parallel_for(search_.accounts.size(), [&](std::size_t i) {
         const LawEntry& entry = search_.entries[i];
@@ -200,13 +197,12 @@ std::vector<bool> acting_conditions(const LawSetting& setting, const Candidate& 
   return out;
 }
 
-void collect_entries(const LawSetting& setting, LawSearch& search) {
-  const auto& candidates = setting.plain.candidates();
+void collect_entries(const LawSetting& setting, LawSearch& search, const std::vector<const Candidate*>& candidates) {
   std::vector<LawEntry> all(candidates.size());
   parallel_for_told(
       candidates.size(),
       [&](std::size_t i) {
-        all[i].candidate = candidates[i].get();
+        all[i].candidate = candidates[i];
         all[i].contrasts = contrasts_of(*candidates[i], setting.contrasts);
         all[i].contrast = all[i].contrasts.empty() ? -1 : all[i].contrasts.front();
         all[i].tried = setting.informed.tried(search.base, *candidates[i]);

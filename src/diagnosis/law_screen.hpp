@@ -16,8 +16,11 @@ constexpr double kLeastLeft = 0.1;  ///< scale of what a cause leaves over in it
 /// (n_conditions)
 [[nodiscard]] std::vector<bool> acting_conditions(const LawSetting& setting, const Candidate& candidate, int contrast);
 
-/// Fills entries, and the signatures of the base's system.
-void collect_entries(const LawSetting& setting, LawSearch& search);
+/// Prior of all causes of a contrast against nothing, of "something else", of channels [nats].
+inline const double kOddsOfAChange = std::log(0.1);
+
+/// Fills entries for those of some candidates that show, and the signatures of the base's system.
+void collect_entries(const LawSetting& setting, LawSearch& search, const std::vector<const Candidate*>& candidates);
 
 /// Weighs nothing, something else, and every entry alone, its magnitudes summed over: the accounts, the best first.
 void screen_by_law(const LawSetting& setting, LawSearch& search, const OneLaw& law);

@@ -72,7 +72,7 @@ void score_at_base(const OneLaw& law, const LawSearch& search, LawAccount& accou
   for (Index k = 0; k < left.cols(); ++k) left.col(k) = search.system.residual - choices[static_cast<std::size_t>(k)].change;
   const OneLaw::Point at = law.at(account.evidence.tau);
   if (at.lower.size() == 0) return;
-  const VectorXd chi_squared = linalg::lower_solve(at.lower, law.whitened(left)).colwise().squaredNorm();
+  const VectorXd chi_squared = law.solved(at, law.whitened(left)).colwise().squaredNorm();
   std::vector<int> kept;
   const Index best = first_of_equals(-chi_squared);
   for (Index k = 0; k < left.cols(); ++k)
@@ -154,8 +154,9 @@ Fit fit_by_own_scales(const LawSetting& setting, const LawAccount& account) {
   const Index rows = system.residual.size();
   MatrixXd share = MatrixXd::Zero(rows, rows);
   for (std::size_t c = 0; c < system.classes.size(); ++c) {
+    if (c == kGains) continue;  // unknowns of the fit itself
     const MatrixXd columns = account.evidence.tau[static_cast<Index>(c)] * system.classes[c];
-    if (columns.size() > 0) share += linalg::product(columns, columns.transpose());
+    if (columns.size() > 0) share += linalg::square(columns);
   }
   const FeatureMap& plain = setting.plain.map();
   MatrixXd further = MatrixXd::Zero(plain.values().size(), plain.values().size());
@@ -171,6 +172,8 @@ Fit fit_by_own_scales(const LawSetting& setting, const LawAccount& account) {
 
 /// Puts a refined account to its fit under its own scales, whatever that takes from the weight, and on while that grows.
 void settle(const LawSetting& setting, const LawSearch& search, LawAccount& account) {
+  account.settled = true;
+  account.first_weight = account.log_weight;
   for (int round = 0; round < kLeadingRounds; ++round) {
     LawAccount anew = account;
     anew.system.reset();
@@ -182,8 +185,7 @@ void settle(const LawSetting& setting, const LawSearch& search, LawAccount& acco
 }
 
 /// Fits a set with its causes in the model from each start of the parameters. A single factor starts from both sides of one:
-/// the base may have moved a parameter of several places for one of them, and the others then look as if they had changed. The
-/// best of them is settled.
+/// the base may have moved a parameter of several places for one of them, and the others then look as if they had changed.
 void refine_by_law(const LawSetting& setting, const LawSearch& search, LawAccount& account,
                    const std::vector<VectorXd>& starts) {
   std::vector<std::vector<Cause>> causes = {search.base.causes};
@@ -193,16 +195,14 @@ void refine_by_law(const LawSetting& setting, const LawSearch& search, LawAccoun
     causes[1].back().a = account.across;
   }
   const VectorXd tau = account.evidence.tau;
-  std::vector<VectorXd> found;
   for (const std::vector<Cause>& start : causes)
     for (const VectorXd& x : starts) {
       Fit with = setting.informed.fit(start, x);
       const auto is_same = [&](const VectorXd& before) { return (with.map.x - before).norm() < kOneFit; };
-      if (!with.made() || std::any_of(found.begin(), found.end(), is_same)) continue;
-      found.push_back(with.map.x);
+      if (!with.made() || std::any_of(account.fitted.begin(), account.fitted.end(), is_same)) continue;
+      account.fitted.push_back(with.map.x);
       weigh_fit(setting, search, account, tau, std::move(with));
     }
-  if (account.refined()) settle(setting, search, account);
 }
 
 /// Scales that a set starts from: those of its best member that was scored, with what is left over in each of its contrasts.
@@ -221,45 +221,75 @@ VectorXd start_of_set(const LawSearch& search, const LawAccount& set) {
   return out;
 }
 
-/// A better optimiser must look neither like a further cause nor like another one: the rivals of the leader are fitted from its
-/// parameters too. From their own starts they may have paired a measured mode with another mode of the model.
-void fit_from_leader(const LawSetting& setting, LawSearch& search) {
-  sort_accounts(search.accounts);
-  if (search.accounts.empty() || !search.accounts.front().refined()) return;
-  const LawAccount& leader = search.accounts.front();
-  const VectorXd x = leader.with.map.x.head(static_cast<Index>(setting.plain.map().nuisances().size()));
-  const double least =
-      leader.log_weight - std::max(kNearFamily, kFamilyShareOf * (leader.log_weight - search.none.log_evidence));
-  std::vector<LawAccount*> rivals;
-  for (LawAccount& account : search.accounts)
-    if (&account != &leader && account.refined() && account.log_weight > least) rivals.push_back(&account);
-  parallel_for(rivals.size(), [&](std::size_t i) {
-    LawAccount anew = *rivals[i];
-    anew.system.reset();
-    refine_by_law(setting, search, anew, {x});
-    if (anew.refined() && anew.log_weight > rivals[i]->log_weight) *rivals[i] = std::move(anew);
-  });
+VectorXd parameters_of(const LawSetting& setting, const LawAccount& account) {
+  return account.with.map.x.head(std::ssize(setting.plain.map().nuisances()));
+}
+
+/// Puts the leader and its rivals to their fits under their own scales, until none among them is new. A better optimiser must
+/// look neither like a further cause nor like another one: the rivals are fitted from the leader's parameters too. From their
+/// own starts they may have paired a measured mode with another mode of the model.
+void settle_rivals(const LawSetting& setting, LawSearch& search) {
+  for (int round = 0; round < kLeadingRounds; ++round) {
+    sort_accounts(search.accounts);
+    if (search.accounts.empty() || !search.accounts.front().refined()) return;
+    const LawAccount leader = search.accounts.front();
+    const VectorXd x = parameters_of(setting, leader);
+    std::vector<LawAccount*> rivals;
+    for (std::size_t i = 0; i < std::min(kMostLeading, search.accounts.size()); ++i) {
+      LawAccount& account = search.accounts[i];
+      if (account.refined() && !(account.settled && account.beside == leader.members)) rivals.push_back(&account);
+    }
+    if (rivals.empty()) return;
+    parallel_for_told(
+        rivals.size(),
+        [&](std::size_t i) {
+          LawAccount& account = *rivals[i];
+          account.beside = leader.members;
+          LawAccount anew = account;
+          anew.system.reset();
+          if (account.members != leader.members) refine_by_law(setting, search, anew, {x});
+          account.fitted = anew.fitted;
+          const double before = account.settled ? account.first_weight : account.log_weight;
+          const bool promises = anew.refined() && anew.log_weight > before;
+          if (!account.settled) {
+            if (promises) account = anew;
+            settle(setting, search, account);
+          } else if (promises) {
+            settle(setting, search, anew);
+            if (anew.log_weight > account.log_weight) account = std::move(anew);
+          }
+        },
+        [&](int done, int of) { setting.progress("rivals fitted", done, of); });
+  }
   sort_accounts(search.accounts);
 }
 
-/// Entries that promise most at the fit with the leading account in the model, each beside it.
-std::vector<LawAccount> sets_beside(const LawSetting& setting, const LawSearch& search, const LawAccount& leader) {
+/// Entries that promise most at the fit with the leading account in the model, each beside it. Of `among` the leading ones are
+/// left, the best first: what promises nothing beside the leader is not tried beside more.
+std::vector<LawAccount> sets_beside(const LawSetting& setting, const LawSearch& search, const LawAccount& leader,
+                                    std::vector<const LawEntry*>& among) {
   LawSearch beside;
   beside.base = leader.with;
   beside.system = law_system(setting.plain, beside.base, setting.contrasts);
-  collect_entries(setting, beside);
+  std::vector<const Candidate*> candidates;
+  for (const LawEntry* entry : among) candidates.push_back(entry->candidate);
+  collect_entries(setting, beside, candidates);
   const OneLaw law(beside.system);
   std::vector<LawAccount> out;
   if (!can_be_weighed(beside.system) || !law.sound()) return out;
+  const auto known_as = [&](const LawEntry& entry) {
+    return *std::find_if(among.begin(), among.end(), [&](const LawEntry* e) { return e->candidate == entry.candidate; });
+  };
+  for (LawEntry& entry : beside.entries) entry.log_prior = known_as(entry)->log_prior;
   screen_by_law(setting, beside, law);
+  std::vector<const LawEntry*> leading;
   for (const LawAccount& found : beside.accounts) {
-    if (out.size() == kTriedBeside || found.log_weight < beside.none.log_evidence + kFarBelow) break;
-    const Candidate* candidate = beside.entries[static_cast<std::size_t>(found.members.front())].candidate;
-    const auto entry =
-        std::find_if(search.entries.begin(), search.entries.end(), [&](const LawEntry& e) { return e.candidate == candidate; });
-    const auto position = static_cast<int>(entry - search.entries.begin());
+    const LawEntry* entry = known_as(beside.entries[static_cast<std::size_t>(found.members.front())]);
+    if (leading.size() < kMembersOfSets) leading.push_back(entry);
+    if (out.size() == kTriedBeside || found.log_weight < beside.none.log_evidence + kFarBelow) continue;
+    const auto position = static_cast<int>(entry - search.entries.data());
     const auto is_known = [&](int m) { return is_same_cause(search.entries[static_cast<std::size_t>(m)], *entry); };
-    if (entry == search.entries.end() || std::any_of(leader.members.begin(), leader.members.end(), is_known)) continue;
+    if (std::any_of(leader.members.begin(), leader.members.end(), is_known)) continue;
     LawAccount set;
     set.members = leader.members;
     set.members.push_back(position);
@@ -269,19 +299,22 @@ std::vector<LawAccount> sets_beside(const LawSetting& setting, const LawSearch& 
     set.causes.push_back(found.causes.front());
     out.push_back(std::move(set));
   }
+  among = std::move(leading);
   return out;
 }
 
 /// Further causes beside the leading account, looked for with it in the model: one that is large hides the others from the
 /// base, where modes may be none of the model's for its sake.
 void look_beside_leader(const LawSetting& setting, LawSearch& search) {
+  std::vector<const LawEntry*> among;
+  for (const LawEntry& entry : search.entries) among.push_back(&entry);
   for (std::size_t size = 1; size < kMostInASet; ++size) {
     const auto best = std::find_if(search.accounts.begin(), search.accounts.end(),
                                    [&](const LawAccount& a) { return a.members.size() == size && a.refined(); });
     if (best == search.accounts.end()) return;
     const LawAccount leader = *best;
-    std::vector<LawAccount> sets = sets_beside(setting, search, leader);
-    const VectorXd x = leader.with.map.x.head(static_cast<Index>(setting.plain.map().nuisances().size()));
+    std::vector<LawAccount> sets = sets_beside(setting, search, leader, among);
+    const VectorXd x = parameters_of(setting, leader);
     parallel_for_told(
         sets.size(), [&](std::size_t i) { refine_by_law(setting, search, sets[i], {x}); },
         [&](int done, int of) { setting.progress("further causes fitted", done, of); });
@@ -371,23 +404,35 @@ LawAccount weigh_without(const LawSetting& setting, LawSystem system, const std:
   return account;
 }
 
-/// No cause, and "something else" in each contrast, as they are held against the causes: with modes of their own opened, and
-/// fitted under their own scales.
-void weigh_nothing(const LawSetting& setting, LawSearch& search) {
-  const auto weigh = [&](const std::vector<ActiveClass>& contrast, const VectorXd& tau) {
-    LawAccount account = weigh_without(setting, search.system, contrast, tau, search.base);
-    const Fit own = account.scored ? fit_by_own_scales(setting, account) : Fit{};
-    if (!account.scored || !own.made()) return account;
+/// The same at the fit under its own scales, and on while the evidence grows, as accounts with causes settle.
+LawAccount settled_without(const LawSetting& setting, const std::vector<ActiveClass>& contrast, const VectorXd& tau,
+                           const Fit& start) {
+  LawAccount account = weigh_without(setting, law_system(setting.plain, start, setting.contrasts), contrast, tau, start);
+  for (int round = 0; account.scored && round < kLeadingRounds; ++round) {
+    const Fit own = fit_by_own_scales(setting, account);
+    if (!own.made()) break;
     LawSystem system = law_system(setting.plain, own, setting.contrasts);
-    if (!can_be_weighed(system)) return account;
+    if (!can_be_weighed(system)) break;
     LawAccount anew = weigh_without(setting, std::move(system), contrast, account.evidence.tau, own);
-    return anew.scored ? anew : account;
-  };
-  search.nothing = weigh({}, search.none.tau);
-  parallel_for(search.else_weight.size(), [&](std::size_t c) {
-    const double prior = search.else_weight[c] - search.something_else[c].log_evidence;
-    search.else_weight[c] =
-        prior + weigh({{kFirstContrast + static_cast<int>(c), 1.0}}, search.something_else[c].tau).log_weight;
+    if (!anew.scored || (round > 0 && anew.log_weight < account.log_weight + kStands)) break;
+    account = std::move(anew);
+  }
+  return account;
+}
+
+/// No cause, and "something else" in each contrast, as they are held against the causes: from a fit without causes, with modes
+/// of their own opened and under their own scales. The better one of two starts counts.
+void weigh_nothing(const LawSetting& setting, LawSearch& search, const Fit& start) {
+  if (!start.made() || !can_be_weighed(law_system(setting.plain, start, setting.contrasts))) return;
+  parallel_for(search.else_weight.size() + 1, [&](std::size_t k) {
+    if (k == 0) {
+      LawAccount found = settled_without(setting, {}, search.none.tau, start);
+      if (!search.nothing.scored || found.log_weight > search.nothing.log_weight) search.nothing = std::move(found);
+      return;
+    }
+    const LawEvidence& other = search.something_else[k - 1];
+    const LawAccount found = settled_without(setting, {{kFirstContrast + static_cast<int>(k) - 1, 1.0}}, other.tau, start);
+    if (found.scored) search.else_weight[k - 1] = std::max(search.else_weight[k - 1], kOddsOfAChange + found.log_weight);
   });
 }
 
@@ -397,15 +442,17 @@ LawSearch search_by_law(const LawSetting& setting, const Fit& base) {
   LawSearch out;
   out.base = base;
   out.system = law_system(setting.plain, base, setting.contrasts);
-  collect_entries(setting, out);
+  std::vector<const Candidate*> candidates;
+  for (const auto& candidate : setting.plain.candidates()) candidates.push_back(candidate.get());
+  collect_entries(setting, out, candidates);
   const OneLaw law(out.system);
   out.weighed = can_be_weighed(out.system) && law.sound();
   if (!out.weighed) return out;
   screen_by_law(setting, out, law);
-  weigh_nothing(setting, out);
+  out.else_weight.assign(setting.contrasts.size(), -1e300);
+  weigh_nothing(setting, out, base);
   if (out.accounts.empty() || out.accounts.front().log_weight < out.none.log_evidence + kFarBelow) return out;
-  const auto n = static_cast<Index>(setting.plain.map().nuisances().size());
-  const std::vector<VectorXd> starts = {out.base.map.x.head(n), {}};
+  const std::vector<VectorXd> starts = {out.base.map.x.head(std::ssize(setting.plain.map().nuisances()))};
   std::set<int> done;
   for (int round = 0; round < kLeadingRounds; ++round) {  // a fit may bring other entries among the leading
     const std::vector<LawAccount*> these = leading_accounts(out, done);
@@ -423,7 +470,7 @@ LawSearch search_by_law(const LawSetting& setting, const Fit& base) {
     if (out.accounts.empty()) return out;
     sort_accounts(out.accounts);
   }
-  fit_from_leader(setting, out);
+  settle_rivals(setting, out);
   std::vector<LawAccount> sets;
   add_sets(
       out, law,
@@ -436,7 +483,10 @@ LawSearch search_by_law(const LawSetting& setting, const Fit& base) {
   for (LawAccount& account : sets) out.accounts.push_back(std::move(account));
   sort_accounts(out.accounts);
   look_beside_leader(setting, out);
-  fit_from_leader(setting, out);
+  settle_rivals(setting, out);
+  // A better optimiser must not look like a cause either: nothing too is fitted from the leader's parameters.
+  if (!out.accounts.empty() && out.accounts.front().refined())
+    weigh_nothing(setting, out, setting.informed.fit(base.causes, parameters_of(setting, out.accounts.front())));
   return out;
 }
 

@@ -48,7 +48,11 @@ struct LawAccount {
   Eigen::VectorXd across;  ///< of one cause that is a factor: coordinates of the best magnitude on the other side of one
   double effect = 0.0;     ///< RMS change of frequencies, ln
   bool scored = false;     ///< at the mode of its own scales
-  Fit with;                ///< the fit with the causes in the model, made() if refined
+  std::vector<Eigen::VectorXd> fitted;  ///< where fits under the error of all hypotheses have ended
+  double first_weight = -1e300;         ///< of its fit under the error of all hypotheses, before it settled
+  bool settled = false;                 ///< its fit is that under its own scales
+  std::vector<int> beside;              ///< members of the account from whose parameters it was fitted too
+  Fit with;                             ///< the fit with the causes in the model, made() if refined
   std::shared_ptr<const LawSystem> system;
   std::vector<int> opened;  ///< measured modes that are none of the model's by its evidence
   [[nodiscard]] bool refined() const { return system != nullptr; }

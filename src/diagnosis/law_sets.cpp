@@ -17,10 +17,9 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-constexpr std::size_t kMembersOfSets = 40;  ///< entries that sets are made of: the leading ones
-constexpr std::size_t kScalesOfSets = 3;    ///< accounts whose scales sets are looked at with
-constexpr std::size_t kScoredSets = 3;      ///< sets of each size that get scales and a fit of their own
-constexpr double kPromises = 3.0;           ///< nats that a set may be behind the best smaller one on the linearised base
+constexpr std::size_t kScalesOfSets = 3;  ///< accounts whose scales sets are looked at with
+constexpr std::size_t kScoredSets = 3;    ///< sets of each size that get scales and a fit of their own
+constexpr double kPromises = 3.0;         ///< nats that a set may be behind the best smaller one on the linearised base
 
 /// Entries at one choice of scales: products of their signatures with the residual and with one another.
 struct LookAtSets {
@@ -51,11 +50,11 @@ class SetScreen {
       if (looked++ == kScalesOfSets) break;
       const OneLaw::Point at = law.at(account.evidence.tau);
       if (at.lower.size() == 0) continue;
-      const MatrixXd s = linalg::lower_solve(at.lower, signatures);
+      const MatrixXd s = law.solved(at, signatures);
       LookAtSets look;
       for (Index c = kFirstContrast; c < account.evidence.tau.size(); ++c)
         if (account.evidence.tau[c] > 0.0) look.contrasts.insert(static_cast<int>(c) - kFirstContrast);
-      look.along = s.transpose() * linalg::lower_solve(at.lower, residual);
+      look.along = s.transpose() * law.solved(at, residual);
       look.products = linalg::product(s, s, true);
       looks_.push_back(std::move(look));
     }

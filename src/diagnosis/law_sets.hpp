@@ -9,6 +9,7 @@
 namespace twindeck::diagnosis {
 
 constexpr std::size_t kMostInASet = 3;
+constexpr std::size_t kMembersOfSets = 40;  ///< entries that sets are made of: the leading ones
 
 /// Sets of two causes among the leading entries, and of three if a set of two leads. All sets are looked at on the linearised
 /// base, magnitudes summed over; the most promising are weighed.

@@ -12,6 +12,8 @@
 extern "C" {
 void dgemm_(const char* trans_a, const char* trans_b, const int* m, const int* n, const int* k, const double* alpha,
             const double* a, const int* lda, const double* b, const int* ldb, const double* beta, double* c, const int* ldc);
+void dsyrk_(const char* uplo, const char* trans, const int* n, const int* k, const double* alpha, const double* a,
+            const int* lda, const double* beta, double* c, const int* ldc);
 void dsyevr_(const char* jobz, const char* range, const char* uplo, const int* n, double* a, const int* lda, const double* vl,
              const double* vu, const int* il, const int* iu, const double* abstol, int* m, double* w, double* z, const int* ldz,
              int* isuppz, double* work, const int* lwork, int* iwork, const int* liwork, int* info);
@@ -108,6 +110,17 @@ Eigen::MatrixXd product(const Eigen::Ref<const Eigen::MatrixXd>& a, const Eigen:
   Eigen::MatrixXd c = Eigen::MatrixXd::Zero(transposed ? a.cols() : a.rows(), b.cols());
   add_product(1.0, a, transposed, b, 0.0, c);
   return c;
+}
+
+Eigen::MatrixXd square(const Eigen::Ref<const Eigen::MatrixXd>& a) {
+  use_one_thread();
+  Eigen::MatrixXd out = Eigen::MatrixXd::Zero(a.rows(), a.rows());
+  if (a.size() == 0) return out;
+  const int n = as_int(a.rows()), k = as_int(a.cols()), lda = as_int(a.outerStride());
+  const double one = 1.0, none = 0.0;
+  dsyrk_("L", "N", &n, &k, &one, a.data(), &lda, &none, out.data(), &n);
+  out.triangularView<Eigen::StrictlyUpper>() = out.transpose();
+  return out;
 }
 
 void subtract_product(const Eigen::Ref<const Eigen::MatrixXd>& a, const Eigen::Ref<const Eigen::MatrixXd>& b,

@@ -10,6 +10,8 @@ namespace twindeck::linalg {
 /// @return a b, or aᵀ b if `transposed`
 [[nodiscard]] Eigen::MatrixXd product(const Eigen::Ref<const Eigen::MatrixXd>& a, const Eigen::Ref<const Eigen::MatrixXd>& b,
                                       bool transposed = false);
+/// @return a aᵀ, both triangles; half the work of the product
+[[nodiscard]] Eigen::MatrixXd square(const Eigen::Ref<const Eigen::MatrixXd>& a);
 /// c -= a b.
 void subtract_product(const Eigen::Ref<const Eigen::MatrixXd>& a, const Eigen::Ref<const Eigen::MatrixXd>& b,
                       Eigen::MatrixXd& c);

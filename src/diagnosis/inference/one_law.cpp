@@ -61,9 +61,15 @@ struct OneLaw::Look {
 OneLaw::OneLaw(const LawSystem& system) : whitener_(linalg::cholesky_factor(system.sigma)), log_prior_(system.log_prior) {
   if (whitener_.size() == 0) return;
   log_determinant_ = 2.0 * whitener_.diagonal().array().log().sum();
-  for (const MatrixXd& columns : system.classes) {
-    columns_.push_back(linalg::lower_solve(whitener_, columns));
-    products_.push_back(linalg::product(columns_.back(), columns_.back().transpose()));
+  std::vector<MatrixXd> white;
+  for (const MatrixXd& columns : system.classes) white.push_back(linalg::lower_solve(whitener_, columns));
+  for (Index r = 0; r < whitener_.rows(); ++r)
+    if (std::any_of(white.begin(), white.end(), [&](const MatrixXd& columns) { return !columns.row(r).isZero(0.0); }))
+      rows_.push_back(static_cast<int>(r));
+  if (rows_.empty()) rows_.push_back(0);  // without classes any row will do
+  for (const MatrixXd& columns : white) {
+    columns_.emplace_back(columns(rows_, Eigen::all));
+    products_.push_back(linalg::square(columns_.back()));
   }
 }
 
@@ -74,13 +80,18 @@ MatrixXd OneLaw::whitened(const MatrixXd& rows) const {
 OneLaw::Point OneLaw::at(const VectorXd& tau) const {
   Point out;
   out.tau = tau;
-  MatrixXd sigma = MatrixXd::Identity(whitener_.rows(), whitener_.rows());
+  MatrixXd sigma = MatrixXd::Identity(std::ssize(rows_), std::ssize(rows_));
   for (std::size_t c = 0; c < products_.size(); ++c)
     if (const double t = tau[static_cast<Index>(c)]; t > 0.0) sigma += t * t * products_[c];
   out.lower = linalg::cholesky_factor(std::move(sigma));
   out.log_determinant =
       out.lower.size() > 0 ? log_determinant_ + 2.0 * out.lower.diagonal().array().log().sum() : -1e300;  // refused
   return out;
+}
+
+MatrixXd OneLaw::solved(const Point& point, MatrixXd white) const {
+  white(rows_, Eigen::all) = linalg::lower_solve(point.lower, white(rows_, Eigen::all));
+  return white;
 }
 
 OneLaw::Look OneLaw::look(const LawHypothesis& white, const VectorXd& log_tau) const {
@@ -95,10 +106,10 @@ OneLaw::Look OneLaw::look(const LawHypothesis& white, const VectorXd& log_tau) c
   }
   out.point = at(out.tau);
   if (out.point.lower.size() == 0) return out;
-  out.solved = linalg::lower_solve(out.point.lower, white.left);
+  out.solved = solved(out.point, white.left);
   double width = 0.0;
   if (white.slopes.cols() > 0) {
-    const MatrixXd slopes = linalg::lower_solve(out.point.lower, white.slopes);
+    const MatrixXd slopes = solved(out.point, white.slopes);
     MatrixXd products = linalg::product(slopes, slopes, true);
     width = log_width(products, white.high - white.low);
     products.diagonal().array() += 1e-12 * (1.0 + products.diagonal().array().abs());
@@ -116,7 +127,7 @@ OneLaw::Look OneLaw::look(const LawHypothesis& white, const VectorXd& log_tau) c
 void OneLaw::slope_of(const LawHypothesis& white, Look& look) const {
   const auto count = static_cast<Index>(white.active.size());
   const MatrixXd inverse = linalg::inverse_of_factored(look.point.lower);
-  const MatrixXd alpha = linalg::lower_solve(look.point.lower, look.solved, true);
+  const MatrixXd alpha = linalg::lower_solve(look.point.lower, look.solved(rows_, Eigen::all), true);
   look.gradient.resize(count);
   std::vector<MatrixXd> along;  // L^-1 D_c D_c' alpha, each column times the root of its weight
   for (Index k = 0; k < count; ++k) {
@@ -135,8 +146,7 @@ void OneLaw::slope_of(const LawHypothesis& white, Look& look) const {
 MatrixXd OneLaw::expected_curvature(const LawHypothesis& white, const Look& look) const {
   std::vector<MatrixXd> squares;  // L^-1 D_c D_c' L^-T
   for (const ActiveClass& active : white.active) {
-    const MatrixXd half = linalg::lower_solve(look.point.lower, columns_[static_cast<std::size_t>(active.index)]);
-    squares.push_back(linalg::product(half, half.transpose()));
+    squares.push_back(linalg::square(linalg::lower_solve(look.point.lower, columns_[static_cast<std::size_t>(active.index)])));
   }
   return with_prior(white, look, [&](std::size_t k, std::size_t l) { return squares[k].cwiseProduct(squares[l]).sum(); });
 }

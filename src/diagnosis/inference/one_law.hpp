@@ -66,13 +66,15 @@ class OneLaw {
   [[nodiscard]] Eigen::Index classes() const { return static_cast<Eigen::Index>(columns_.size()); }
   [[nodiscard]] Eigen::MatrixXd whitened(const Eigen::MatrixXd& rows) const;
 
-  /// Sigma at some scales, in whitened rows.
+  /// Sigma at some scales, in the whitened rows that a class has a share in; in the others it is the identity.
   struct Point {
     Eigen::VectorXd tau;
     Eigen::MatrixXd lower;  ///< L, L L' = L_0^-1 Sigma L_0^-T
     double log_determinant = 0.0;
   };
   [[nodiscard]] Point at(const Eigen::VectorXd& tau) const;
+  /// Whitened rows, whitened by a point's Sigma.
+  [[nodiscard]] Eigen::MatrixXd solved(const Point& point, Eigen::MatrixXd white) const;
 
   /// The mode of the scales from a start (n_classes; where an active class starts at 0 it starts at its half-t scale), and the
   /// evidence there.
@@ -93,7 +95,8 @@ class OneLaw {
 
   Eigen::MatrixXd whitener_;  // L_0
   double log_determinant_ = 0.0, log_prior_ = 0.0;
-  std::vector<Eigen::MatrixXd> columns_, products_;  // L_0^-1 D_c, and times its transpose
+  std::vector<int> rows_;                            // whitened ones that a class has a share in
+  std::vector<Eigen::MatrixXd> columns_, products_;  // L_0^-1 D_c in these rows, and times its transpose
 };
 
 }  // namespace twindeck::diagnosis

@@ -22,6 +22,13 @@ MatrixXd numbers(Eigen::Index rows, Eigen::Index columns) {
   return a;
 }
 
+TEST(Dense, ASquareHasBothTriangles) {
+  const MatrixXd a = numbers(33, 9);
+  EXPECT_LT((linalg::square(a.topRows(20)) - a.topRows(20).lazyProduct(a.topRows(20).transpose())).cwiseAbs().maxCoeff(),
+            1e-12);
+  EXPECT_TRUE(linalg::square(MatrixXd(4, 0)).isZero(0.0));
+}
+
 TEST(Dense, ALowerFactorIsSolvedByItsLowerTriangleAlone) {
   MatrixXd lower = numbers(40, 40);
   lower.diagonal().array() += 5.0;
