@@ -72,6 +72,7 @@ struct ErrorClass {
 struct FormReport {
   ScaleEstimate frequency, shape;     ///< of the classes of frequencies and of shapes
   std::vector<ErrorClass> classes;    ///< those that have rows
+  std::vector<HeldOutMode> held_out;  ///< those that neither fit leaves open
   PredictiveGain gain;                ///< of the leading causes, whether they were named or not
   std::vector<std::string> warnings;  ///< to be shown with the verdict
 };

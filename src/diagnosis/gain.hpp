@@ -3,10 +3,18 @@
 #include <Eigen/Core>
 #include <cstdint>
 #include <string>
+#include <vector>
 
 #include "diagnosis/inference.hpp"
 
 namespace twindeck::diagnosis {
+
+/// A measured mode as all other modes predict it, without and with the causes.
+struct HeldOutMode {
+  std::string mode, condition;
+  double frequency_before_pct = 0.0, frequency_after_pct = 0.0;  ///< predicted less measured, of the measured
+  double mac_before = 0.0, mac_after = 0.0;                      ///< [-] with the measured shape; NaN where there is none
+};
 
 /// What the causes bring on rows that the fit has not seen.
 struct Gain {
@@ -14,6 +22,7 @@ struct Gain {
   double before = 0.0, after = 0.0;  ///< RMS of standardised held-out residuals
   double reduction_pct = 0.0, low_pct = 0.0, high_pct = 0.0;
   std::string held_out;
+  std::vector<HeldOutMode> modes = {};
 };
 
 /// Gain of `after` over `before` on the held-out rows, 90 % interval over resampled blocks (a mode or record of one condition

@@ -2,12 +2,15 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <map>
 #include <memory>
 #include <set>
 
 #include "core/error.hpp"
 #include "diagnosis/mode_blocks.hpp"
 #include "linalg/dense.hpp"
+#include "modal/mac.hpp"
 
 namespace twindeck::diagnosis {
 
@@ -21,10 +24,9 @@ constexpr double kGuarded = 15.0;  // nats of the leader: accounts whose predict
 
 /// Sigma^-1 at an account's scales; linear magnitudes are unknowns as wide as their range.
 std::shared_ptr<const Precision> precision_at(const LawSystem& system, const VectorXd& tau, const MatrixXd& further) {
-  MatrixXd sigma = system.sigma + linalg::product(further, further.transpose());
+  MatrixXd sigma = system.sigma + linalg::square(further);
   for (std::size_t c = 0; c < system.classes.size(); ++c)
-    if (const double t = tau[static_cast<Index>(c)]; t > 0.0)
-      sigma += t * t * linalg::product(system.classes[c], system.classes[c].transpose());
+    if (const double t = tau[static_cast<Index>(c)]; t > 0.0) sigma += t * t * linalg::square(system.classes[c]);
   const MatrixXd lower = linalg::cholesky_factor(std::move(sigma));
   TWINDECK_ASSERT(lower.size() > 0);
   auto out = std::make_shared<Precision>();
@@ -80,6 +82,8 @@ void tell_residuals_of_pairs(const LawSetting& setting, const LawSearch& search,
     gain.blocks[which[b]].after = paired.blocks[b].after;
     gain.blocks[which[b]].rows = paired.blocks[b].rows;
   }
+  gain.error_before = paired.error_before;
+  gain.error_after = paired.error_after;
   gain.reduction_pct = paired.reduction_pct;
   gain.low_pct = paired.low_pct;
   gain.high_pct = paired.high_pct;
@@ -104,6 +108,35 @@ PredictiveGain gain_by_law(const LawSetting& setting, const LawSearch& search, i
   if (!entries.empty() && !nothing.opened.empty())
     tell_residuals_of_pairs(setting, search, blocks, entries, bootstrap, seed, gain);
   return gain;
+}
+
+std::vector<HeldOutMode> held_out_modes(const LawSetting& setting, const LawSearch& search, const PredictiveGain& gain) {
+  std::vector<HeldOutMode> out;
+  if (search.accounts.empty() || gain.blocks.empty()) return out;
+  const FeatureMap& map = setting.plain.map();
+  const LawAccount& leader = search.accounts.front();
+  std::map<int, Index> place;  // of a row among the training rows
+  for (std::size_t r = 0; r < setting.plain.training().size(); ++r) place[setting.plain.training()[r]] = static_cast<Index>(r);
+  for (std::size_t m = 0; m < map.measured_modes().size(); ++m) {
+    const MeasuredMode& mode = map.measured_modes()[m];
+    const auto frequency = place.find(mode.frequency);
+    const bool is_open = search.base.all.paired[m] < 0 || (leader.refined() && leader.with.all.paired[m] < 0) ||
+                         std::find(leader.opened.begin(), leader.opened.end(), static_cast<int>(m)) != leader.opened.end();
+    if (frequency == place.end() || is_open || !std::isfinite(gain.error_after[frequency->second])) continue;
+    const auto off_pct = [&](const VectorXd& error) { return 100.0 * std::expm1(-error[frequency->second]); };
+    const auto mac = [&](const VectorXd& error) {
+      VectorXd measured(std::ssize(mode.real_rows)), predicted(measured.size());
+      for (Index k = 0; k < measured.size(); ++k) {
+        const int row = mode.real_rows[static_cast<std::size_t>(k)];
+        measured[k] = map.values()[row];
+        predicted[k] = place.contains(row) ? measured[k] - error[place.at(row)] : std::numeric_limits<double>::quiet_NaN();
+      }
+      return measured.size() > 1 ? modal::mac(measured, predicted)(0, 0) : std::numeric_limits<double>::quiet_NaN();
+    };
+    out.push_back({mode.label, map.features().conditions[static_cast<std::size_t>(mode.condition)].name,
+                   off_pct(gain.error_before), off_pct(gain.error_after), mac(gain.error_before), mac(gain.error_after)});
+  }
+  return out;
 }
 
 bool each_cause_predicts(const LawSetting& setting, const LawSearch& search, const LawAccount& set, int bootstrap,

@@ -2,6 +2,7 @@
 
 #include <cstdint>
 
+#include "diagnosis/gain.hpp"
 #include "diagnosis/inference/guard.hpp"
 #include "diagnosis/law_search.hpp"
 
@@ -14,6 +15,11 @@ namespace twindeck::diagnosis {
 /// Gain of the leading accounts over nothing, each mode left out in turn. Nothing may be an error of the model.
 /// @param bootstrap  number of resamplings of the modes @param seed  of them
 [[nodiscard]] PredictiveGain gain_by_law(const LawSetting& setting, const LawSearch& search, int bootstrap, std::uint64_t seed);
+
+/// Modes as all others predict them, in per cent of frequency and in MAC, where neither the base nor the leader leaves them
+/// open.
+[[nodiscard]] std::vector<HeldOutMode> held_out_modes(const LawSetting& setting, const LawSearch& search,
+                                                      const PredictiveGain& gain);
 
 /// Whether a set predicts modes that it was not fitted to better than the best of its causes do without one of them. What is
 /// wrong with channels shows in every mode alike, and a mode left out cannot tell.

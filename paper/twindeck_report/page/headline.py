@@ -129,8 +129,6 @@ def _gained(gain: dict, raw: RawErrors | None) -> list:
     if raw is None:
         return [text + on_what for text in ([f"error {gain['reduction_pct']:.0f} % smaller"] if gain["interval_pct"][0] > 0 else ["no gain shown"]) for on_what in (" on unfitted data", "")]
     which = "unfitted" if raw.held_out else "fitted"
-    if raw.mostly_further_off:
-        return [f"no gain: {len(raw.further_off)} of {raw.modes} {which} frequencies further off"]
     no = "no gain: " if raw.worse else "" if gain["interval_pct"][0] > 0 else "no gain shown: "
     before, after = (f"{error:.2g}" for error in raw.frequency)
     errors = f"stay at {after} %" if before == after else f"{'rise' if raw.worse else 'fall'} from {before} to {after} %"

@@ -17,13 +17,8 @@ class RawErrors:
     further_off: list  # of Told: modes whose frequency the causes move away from the measured one by more than its standard deviation
 
     @property
-    def mostly_further_off(self) -> bool:
-        return 2 * len(self.further_off) > self.modes
-
-    @property
     def worse(self) -> bool:
-        """The mean grows, or falls by a few modes alone while most are further off."""
-        return self.frequency[1] >= self.frequency[0] or self.mostly_further_off
+        return self.frequency[1] >= self.frequency[0]
 
 
 def raw_errors(told: Telling | None) -> RawErrors | None:

@@ -147,6 +147,13 @@ nlohmann::ordered_json gain_json(const Diagnosis& result) {
                                  {"reduction_pct", gain.reduction_pct},
                                  {"interval_pct", {gain.low_pct, gain.high_pct}},
                                  {"level", 0.90}};
+  for (const diagnosis::HeldOutMode& mode : gain.modes)
+    json["raw"].push_back({{"mode", mode.mode},
+                           {"condition", mode.condition},
+                           {"frequency_error_pct_before", mode.frequency_before_pct},
+                           {"frequency_error_pct_after", mode.frequency_after_pct},
+                           {"mac_before", mode.mac_before},
+                           {"mac_after", mode.mac_after}});
   if (const auto explained = diagnosis::explained_gain(result)) {
     json["modes_measured"] = explained->measured;
     json["modes_explained_before"] = explained->before;

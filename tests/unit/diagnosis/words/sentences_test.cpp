@@ -57,7 +57,8 @@ TEST(Sentences, ASoftSpringIsToldWithItsPlaceSizeProbabilityAndGain) {
       << spoken.sentences.why;
   EXPECT_EQ(result.message, effect.sentence);
   EXPECT_GT(effect.probability, 0.98);
-  EXPECT_NE(spoken.sentences.how_sure.find("the cause has probability 0.99"), std::string::npos) << spoken.sentences.how_sure;
+  EXPECT_NE(spoken.sentences.how_sure.find("the cause has probability above 0.99"), std::string::npos)
+      << spoken.sentences.how_sure;
   EXPECT_NE(spoken.sentences.how_much_better.find(fmt::format("{:.0f} % less", result.gain.reduction_pct)), std::string::npos);
   // No sentence names an id alone.
   for (const std::string& text :
@@ -137,6 +138,10 @@ TEST(Sentences, AGainWhoseIntervalHoldsZeroIsNoneShown) {
   gain.low_pct = 0.0;
   EXPECT_FALSE(diagnosis::shows_gain(gain));
   gain.low_pct = 1.0;
+  EXPECT_TRUE(diagnosis::shows_gain(gain));
+  gain.modes = {{"1", "calm", -1.0, 3.0, 0.9, 0.9}, {"2", "calm", 2.0, -0.5, 0.9, 0.9}};
+  EXPECT_FALSE(diagnosis::shows_gain(gain)) << "frequencies of modes left out are further off, 1.75 % after 1.5 %";
+  gain.modes.front().frequency_after_pct = 2.0;
   EXPECT_TRUE(diagnosis::shows_gain(gain));
   gain.rows = 0;
   EXPECT_FALSE(diagnosis::shows_gain(gain));
