@@ -40,10 +40,10 @@ def listing(folder):
 
 
 def write_record(file):
-    """80 s at 50 Hz of numbers that repeat after 997 samples, for the channels of the base's campaign."""
+    """80 s at 50 Hz of numbers that do not repeat, for the channels of the base's campaign."""
     channels = [line.split(",")[0] for line in (file.parents[1] / "channels.csv").read_text().splitlines()[1:]]
     lines = [",".join(["time_s", *channels])]
-    lines += [",".join([f"{k / 50.0:g}", *(str((k * (17 + 6 * c)) % 997 - 498) for c in range(len(channels)))]) for k in range(4000)]
+    lines += [",".join([f"{k / 50.0:g}", *(str((k * (17 + 6 * c)) % 4999 - 2499) for c in range(len(channels)))]) for k in range(4000)]
     file.parent.mkdir(exist_ok=True)
     file.write_text("\n".join(lines) + "\n")
 
