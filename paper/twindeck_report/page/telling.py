@@ -69,7 +69,8 @@ def _of_rows(study: Study, told: dict) -> Telling | None:
     if not rows:
         return None
     after = ("model with the causes in it" if len(told["effects"]) > 1 else "model with the cause in it") if told["effects"] else ""
-    return Telling(rows, "model fitted within its bounds", after, _damping(table[table["type"] == "damping_ratio_pct"]))
+    before = "model fitted to all other modes" if held else "model fitted within its bounds"
+    return Telling(rows, before, after, _damping(table[table["type"] == "damping_ratio_pct"]))
 
 
 def _damping(table: pd.DataFrame) -> tuple | None:
