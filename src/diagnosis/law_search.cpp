@@ -452,7 +452,7 @@ LawSearch search_by_law(const LawSetting& setting, const Fit& base) {
   out.else_weight.assign(setting.contrasts.size(), -1e300);
   weigh_nothing(setting, out, base);
   if (out.accounts.empty() || out.accounts.front().log_weight < out.none.log_evidence + kFarBelow) return out;
-  const std::vector<VectorXd> starts = {out.base.map.x.head(std::ssize(setting.plain.map().nuisances()))};
+  const std::vector<VectorXd> starts = {out.base.map.x.head(std::ssize(setting.plain.map().nuisances())), {}};
   std::set<int> done;
   for (int round = 0; round < kLeadingRounds; ++round) {  // a fit may bring other entries among the leading
     const std::vector<LawAccount*> these = leading_accounts(out, done);
