@@ -15,7 +15,8 @@ class TimeColumns {
   TimeColumns(const Visitor& visit, Eigen::Index channels) : visit_(visit), channels_(channels) {}
   /// Whole rows, or one column after another.
   void operator()(Eigen::Index first_sample, Eigen::Index first_channel, const Eigen::MatrixXd& block);
-  /// After the last block: what was held back is visited, columns of time leave the list, the finest one's clock enters it.
+  /// After the last block. Visits what was held back, takes columns of time out of the list of channels, and sets the clock to
+  /// that of the finest of them.
   void finish(RecordInfo& info);
 
  private:

@@ -30,10 +30,9 @@ struct ExplanationRule {
   double within = 0.05;    ///< [-] largest |ln(f computed / f measured)|
 };
 
-/// Which measured modes a model explains. The likelihood is that of a density in two levels over what could have been measured:
-/// a mode of the structure is explained with probability `hit`, and what is not a mode of the model is explained by accident
-/// with probability c_i, the part of the measured band (in ln f) in which this very shape would find a mode of the model that
-/// is like it. So
+/// Which measured modes a model explains. A mode of the structure is explained with probability `hit`. Any other shape may be
+/// explained by accident. Its probability c_i is the part of the measured band (in ln f) where the model has a mode like that
+/// shape. So
 ///
 ///     ln L = sum over modes of  ln(hit / c_i) where it is explained, ln((1 - hit) / (1 - c_i)) where it is not,
 ///
