@@ -23,34 +23,48 @@ namespace {
 
 #if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
 
-constexpr std::string_view kOneThread = "OPENBLAS_NUM_THREADS=1";
+constexpr std::string_view kOneThread = "OPENBLAS_NUM_THREADS=1",
+                           kChoice = "OPENBLAS_CORETYPE=", kKernels = "OPENBLAS_CORETYPE=Haswell";
 
 bool sets_threads_of_libraries(std::string_view entry) {
   return entry.starts_with("OPENBLAS_NUM_THREADS=") || entry.starts_with("OMP_STACKSIZE=") ||
          entry.starts_with("GOMP_STACKSIZE=");
 }
 
-/// Replaces this process by the same program in an environment where OpenBLAS starts no threads and OpenMP's threads have the
-/// stacks that the system gives. OpenBLAS starts its threads when it is loaded, before main. They are never used, and at the
-/// end of a process whose memory is limited they wait for memory without end. Called before any library is initialised; costs
-/// some milliseconds, and the number of the process stays. Where the program cannot be started again, it goes on as it is.
-void start_with_one_blas_thread(int, char** arguments, char** environment) {
-  bool is_set = false, others = false;
+/// Whether the processor has the instructions of kKernels.
+bool has_kernels() {
+#if defined(__x86_64__)
+  __builtin_cpu_init();
+  return __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma");
+#else
+  return false;
+#endif
+}
+
+/// Replaces this process by the same program in an environment where OpenBLAS starts no threads, takes the same kernels on
+/// every processor that has them, and OpenMP's threads have the stacks that the system gives. OpenBLAS does both when it is
+/// loaded, before main. Its threads are never used, and at the end of a process whose memory is limited they wait for memory
+/// without end. Its own choice of kernels moves last digits, and on a processor that is newer than it those of 2004 are taken.
+/// Called before any library is initialised; costs some milliseconds, and the number of the process stays. Where the program
+/// cannot be started again, it goes on as it is.
+void start_with_blas_set(int, char** arguments, char** environment) {
+  bool is_set = false, others = false, has_choice = !has_kernels();
   std::vector<char*> wanted;
   for (char** entry = environment; *entry != nullptr; ++entry) {
     const bool dropped = sets_threads_of_libraries(*entry);
     (std::string_view(*entry) == kOneThread ? is_set : others) |= dropped;
+    has_choice |= std::string_view(*entry).starts_with(kChoice);
     if (!dropped) wanted.push_back(*entry);
   }
-  if (is_set && !others) return;
+  if (is_set && !others && has_choice) return;
   wanted.push_back(const_cast<char*>(kOneThread.data()));
+  if (!has_choice) wanted.push_back(const_cast<char*>(kKernels.data()));
   wanted.push_back(nullptr);
   std::array<char, 4096> program{};  // its own name, under which the system lists the process
   if (::readlink("/proc/self/exe", program.data(), program.size() - 1) > 0) ::execve(program.data(), arguments, wanted.data());
 }
 
-[[gnu::section(".preinit_array"), gnu::used]] void (*const g_before_libraries)(int, char**,
-                                                                               char**) = &start_with_one_blas_thread;
+[[gnu::section(".preinit_array"), gnu::used]] void (*const g_before_libraries)(int, char**, char**) = &start_with_blas_set;
 
 #endif
 

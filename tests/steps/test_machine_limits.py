@@ -55,6 +55,14 @@ class Limits(unittest.TestCase):
         for size in ("16k", "1"):
             self.assertEqual(self.run_step("s6_updating", "", "--threads 2", OMP_STACKSIZE=size).returncode, 0)
 
+    def test_the_same_kernels_of_blas_on_every_processor(self):
+        """OpenBLAS tells its choice itself. One that the caller makes stays."""
+        flags = pathlib.Path("/proc/cpuinfo").read_text().split()
+        with_own = self.run_step("s1_model", "", OPENBLAS_VERBOSE="2", OPENBLAS_CORETYPE="Nehalem")
+        if not {"avx2", "fma", "sse4_2"} <= set(flags) or "Core: Nehalem" not in with_own.stderr:
+            self.skipTest("a processor without AVX2, or another BLAS than OpenBLAS")
+        self.assertIn("Core: Haswell\n", self.run_step("s1_model", "unset OPENBLAS_CORETYPE", OPENBLAS_VERBOSE="2").stderr)
+
     def test_a_name_that_is_too_long(self):
         for model, out in ((300 * "a", "out/x"), ("model", 300 * "a")):
             done = subprocess.run([BIN / "s1_model", "--model", model, "--out", out], cwd=self.folder, capture_output=True, text=True)
