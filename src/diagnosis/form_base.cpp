@@ -23,7 +23,6 @@ constexpr std::array<FormLevel, 3> kLevels = {{{0.01, 0.01}, {0.02, 0.03}, {0.03
 // cause that acts in every condition may be what is left; above it the model is grossly off, and fits stand the level at which
 // the second is met.
 constexpr double kGrossMisfit = 10.0, kLargestMisfit = 2.0;
-constexpr double kAside = 10.0;  // deviation of rows that are set aside: e^10, far beyond any change
 /// Conditions that the first fit is made to.
 std::set<int> plainest_conditions(const FeatureSet& features) {
   std::set<int> out;

@@ -4,6 +4,8 @@
 
 namespace twindeck::diagnosis {
 
+constexpr double kAside = 10.0;  ///< deviation of rows that are set aside: e^10, far beyond any change
+
 /// Form errors of frequencies (ln f) and of shapes (decision 0013) [-].
 struct FormLevel {
   double frequency = 0.0, shape = 0.0;

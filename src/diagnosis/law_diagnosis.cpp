@@ -201,7 +201,7 @@ class ByLaw {
   void guard() {
     if (search_.accounts.empty() || !search_.accounts.front().scored) return;
     out_.form->gain = gain_by_law(setting_, search_, options_.bootstrap, seed_);
-    out_.form->held_out = held_out_modes(setting_, search_, out_.form->gain);
+    out_.form->held_out = held_out_modes(setting_, search_);
     if (out_.verdict != Verdict::named && out_.verdict != Verdict::ambiguous) return;
     const std::vector<int>& members = search_.accounts.front().members;
     // What is wrong with channels shows in every mode alike, and the class of gains learns it from any of them: a mode left out

@@ -2,15 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
-#include <map>
 #include <memory>
 #include <set>
 
 #include "core/error.hpp"
+#include "core/parallel.hpp"
 #include "diagnosis/mode_blocks.hpp"
 #include "linalg/dense.hpp"
-#include "modal/mac.hpp"
 
 namespace twindeck::diagnosis {
 
@@ -82,8 +80,6 @@ void tell_residuals_of_pairs(const LawSetting& setting, const LawSearch& search,
     gain.blocks[which[b]].after = paired.blocks[b].after;
     gain.blocks[which[b]].rows = paired.blocks[b].rows;
   }
-  gain.error_before = paired.error_before;
-  gain.error_after = paired.error_after;
   gain.reduction_pct = paired.reduction_pct;
   gain.low_pct = paired.low_pct;
   gain.high_pct = paired.high_pct;
@@ -110,31 +106,39 @@ PredictiveGain gain_by_law(const LawSetting& setting, const LawSearch& search, i
   return gain;
 }
 
-std::vector<HeldOutMode> held_out_modes(const LawSetting& setting, const LawSearch& search, const PredictiveGain& gain) {
+std::vector<HeldOutMode> held_out_modes(const LawSetting& setting, const LawSearch& search) {
   std::vector<HeldOutMode> out;
-  if (search.accounts.empty() || gain.blocks.empty()) return out;
-  const FeatureMap& map = setting.plain.map();
+  if (search.accounts.empty() || !search.accounts.front().refined()) return out;
   const LawAccount& leader = search.accounts.front();
-  std::map<int, Index> place;  // of a row among the training rows
-  for (std::size_t r = 0; r < setting.plain.training().size(); ++r) place[setting.plain.training()[r]] = static_cast<Index>(r);
+  LawAccount without_causes = leader;
+  without_causes.causes.clear();
+  without_causes.with.causes = search.base.causes;
+  const FeatureMap& map = setting.plain.map();
+  const std::vector<std::vector<int>> blocks = mode_blocks(setting.plain, search.base);
+  std::vector<Prediction> before(blocks.size()), after(blocks.size());
+  parallel_for_told(
+      2 * blocks.size(),
+      [&](std::size_t k) {
+        const bool with = k % 2 == 1;
+        (with ? after : before)[k / 2] = fit_by_own_scales(setting, with ? leader : without_causes, blocks[k / 2]).all;
+      },
+      [&](int done, int of) { setting.progress("modes left out", done, of); });
   for (std::size_t m = 0; m < map.measured_modes().size(); ++m) {
     const MeasuredMode& mode = map.measured_modes()[m];
-    const auto frequency = place.find(mode.frequency);
-    const bool is_open = search.base.all.paired[m] < 0 || (leader.refined() && leader.with.all.paired[m] < 0) ||
-                         std::find(leader.opened.begin(), leader.opened.end(), static_cast<int>(m)) != leader.opened.end();
-    if (frequency == place.end() || is_open || !std::isfinite(gain.error_after[frequency->second])) continue;
-    const auto off_pct = [&](const VectorXd& error) { return 100.0 * std::expm1(-error[frequency->second]); };
-    const auto mac = [&](const VectorXd& error) {
-      VectorXd measured(std::ssize(mode.real_rows)), predicted(measured.size());
-      for (Index k = 0; k < measured.size(); ++k) {
-        const int row = mode.real_rows[static_cast<std::size_t>(k)];
-        measured[k] = map.values()[row];
-        predicted[k] = place.contains(row) ? measured[k] - error[place.at(row)] : std::numeric_limits<double>::quiet_NaN();
-      }
-      return measured.size() > 1 ? modal::mac(measured, predicted)(0, 0) : std::numeric_limits<double>::quiet_NaN();
-    };
-    out.push_back({mode.label, map.features().conditions[static_cast<std::size_t>(mode.condition)].name,
-                   off_pct(gain.error_before), off_pct(gain.error_after), mac(gain.error_before), mac(gain.error_after)});
+    const auto row = std::find(setting.plain.training().begin(), setting.plain.training().end(), mode.frequency);
+    const auto at = static_cast<int>(row - setting.plain.training().begin());
+    const auto block = std::find_if(blocks.begin(), blocks.end(), [&](const std::vector<int>& rows) {
+      return std::find(rows.begin(), rows.end(), at) != rows.end();
+    });
+    if (row == setting.plain.training().end() || block == blocks.end() ||
+        std::find(leader.opened.begin(), leader.opened.end(), static_cast<int>(m)) != leader.opened.end())
+      continue;
+    const Prediction &without = before[static_cast<std::size_t>(block - blocks.begin())],
+                     &with = after[static_cast<std::size_t>(block - blocks.begin())];
+    if (!without.valid || !with.valid || without.paired[m] < 0 || with.paired[m] < 0) continue;
+    const auto off_pct = [&](const Prediction& p) { return 100.0 * (p.frequency_Hz[m] / mode.frequency_Hz - 1.0); };
+    out.push_back({mode.label, map.features().conditions[static_cast<std::size_t>(mode.condition)].name, off_pct(without),
+                   off_pct(with), without.mac[m], with.mac[m]});
   }
   return out;
 }

@@ -16,10 +16,10 @@ namespace twindeck::diagnosis {
 /// @param bootstrap  number of resamplings of the modes @param seed  of them
 [[nodiscard]] PredictiveGain gain_by_law(const LawSetting& setting, const LawSearch& search, int bootstrap, std::uint64_t seed);
 
-/// Modes as all others predict them, in per cent of frequency and in MAC, where neither the base nor the leader leaves them
-/// open.
-[[nodiscard]] std::vector<HeldOutMode> held_out_modes(const LawSetting& setting, const LawSearch& search,
-                                                      const PredictiveGain& gain);
+/// Each mode by fits to all others, without and with the causes of the leader. Both weigh the rows by the leader's scales, so
+/// that nothing differs but the causes. Modes that the leader holds for none of the model's, and those that one of the two
+/// pairs with none, are left out.
+[[nodiscard]] std::vector<HeldOutMode> held_out_modes(const LawSetting& setting, const LawSearch& search);
 
 /// Whether a set predicts modes that it was not fitted to better than the best of its causes do without one of them. What is
 /// wrong with channels shows in every mode alike, and a mode left out cannot tell.

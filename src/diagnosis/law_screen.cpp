@@ -18,7 +18,6 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-constexpr double kLeftPart = 0.1;           // of a cause's effect: scale of what it leaves over in its contrast …
 constexpr double kPerCent = 100.0;          // units of a class in a relative effect
 const double kShrinks[] = {0.0, 1.5, 3.0};  // of ln tau: a large cause leaves smaller errors than nothing does
 constexpr double kShows = 1e-3;             // deviations: below, these rows show nothing of an entry
@@ -134,7 +133,7 @@ class Screen {
       for (std::size_t c = 0; c < setting_.contrasts.size(); ++c) {
         ScreenPoint with = points_.back();
         with.contrast = static_cast<int>(c);
-        with.tau[kFirstContrast + static_cast<int>(c)] = kLeastLeft;
+        with.tau[kFirstContrast + static_cast<int>(c)] = kLeft;
         with.log_volume += 0.5 * std::log(2.0 * std::numbers::pi);
         points_.push_back(with);
       }
@@ -173,7 +172,7 @@ std::vector<ActiveClass> lasting_classes(const LawSystem& system) {
   return out;
 }
 
-double left_scale(double effect) { return std::max(kLeastLeft, kLeftPart * kPerCent * effect); }
+double left_scale(double effect) { return std::max(kLeft, kLeft * kPerCent * effect); }
 
 double effect_on(const Inference& inference, const VectorXd& change, const std::vector<bool>& acts) {
   double sum = 0.0;

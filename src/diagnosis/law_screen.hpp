@@ -5,7 +5,8 @@
 /// Private to src/diagnosis: entries of the catalogue at a base, each weighed by the one law at a few choices of its scales.
 namespace twindeck::diagnosis {
 
-constexpr double kLeastLeft = 0.1;  ///< scale of what a cause leaves over in its contrast, in units of the class, at least
+/// Scale of what a cause leaves over in its contrast: this part of its effect, and of a unit of the class at least.
+constexpr double kLeft = 0.1;
 
 /// Scale of what a cause leaves over. @param effect  RMS change of its frequencies, ln
 [[nodiscard]] double left_scale(double effect);

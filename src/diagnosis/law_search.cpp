@@ -2,11 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <map>
 #include <numbers>
 #include <set>
 
 #include "core/parallel.hpp"
+#include "diagnosis/form_base.hpp"
 #include "diagnosis/form_magnitudes.hpp"
 #include "diagnosis/law_openings.hpp"
 #include "diagnosis/law_screen.hpp"
@@ -25,10 +27,8 @@ constexpr double kKeptMagnitudes = 10.0;  // nats of the best: farther ones add 
 constexpr double kOneFit = 0.01;          // prior deviations: nearer fits are one
 constexpr std::size_t kLeading = 6, kMostLeading = 10, kOfFewPlaces = 6;
 constexpr int kLeadingRounds = 4;
-constexpr double kStands = 1.0;                           // nats that one more fit gains: less is the same fit
-constexpr std::size_t kTriedBeside = 3;                   // entries that are tried beside the leading account
-constexpr double kNear = 8.0, kNearFamily = 12.0;         // nats of the best: worth a fit of their own …
-constexpr double kNearShare = 0.1, kFamilyShareOf = 0.3;  // … or this much of what it has over nothing
+constexpr double kStands = 1.0;                   // nats that one more fit gains: less is the same fit
+constexpr double kNear = 12.0, kNearShare = 0.3;  // nats of the best, or part of what it has over nothing: worth a fit
 constexpr double kFarBelow = -8.0;  // nats against nothing: where the best entry is below, no fit brings it to five per cent
 
 /// Classes of a set of causes; an effect sets what is left over in each of its contrasts.
@@ -147,41 +147,27 @@ void weigh_fit(const LawSetting& setting, const LawSearch& search, LawAccount& a
   account.scored = true;
 }
 
-/// A fit of an account under its own scales, what it holds for none of the model's modes left open, from where the law says
-/// that the unknowns are. The evidence is linear about a fit: far from it, it promises what the model does not hold.
-Fit fit_by_own_scales(const LawSetting& setting, const LawAccount& account) {
-  const LawSystem& system = *account.system;
-  const Index rows = system.residual.size();
-  MatrixXd share = MatrixXd::Zero(rows, rows);
-  for (std::size_t c = 0; c < system.classes.size(); ++c) {
-    if (c == kGains) continue;  // unknowns of the fit itself
-    const MatrixXd columns = account.evidence.tau[static_cast<Index>(c)] * system.classes[c];
-    if (columns.size() > 0) share += linalg::square(columns);
-  }
-  const FeatureMap& plain = setting.plain.map();
-  MatrixXd further = MatrixXd::Zero(plain.values().size(), plain.values().size());
-  further(setting.plain.training(), setting.plain.training()) = share;
-  FeatureMap map = with_open(plain, account.opened);
-  map.add_covariance(further);
-  std::vector<Cause> causes = account.with.causes;
-  Index at = 0;
-  for (std::size_t c = causes.size() - account.causes.size(); c < causes.size(); ++c)
-    for (Index k = 0; k < causes[c].a.size(); ++k, ++at) causes[c].a[k] += account.evidence.shift[at];
-  return Inference(map, setting.plain.candidates()).fit(causes, account.with.map.x.head(std::ssize(plain.nuisances())));
-}
-
-/// Puts a refined account to its fit under its own scales, whatever that takes from the weight, and on while that grows.
-void settle(const LawSetting& setting, const LawSearch& search, LawAccount& account) {
-  account.settled = true;
-  account.first_weight = account.log_weight;
+/// Puts a weighed account to its fit under its own scales, whatever that takes from the weight, and on while that grows.
+/// @param weighed  an account as it stands at another fit, without a system where it cannot be weighed there
+void settle(const LawSetting& setting, LawAccount& account, const std::function<LawAccount(const LawAccount&, Fit)>& weighed) {
   for (int round = 0; round < kLeadingRounds; ++round) {
-    LawAccount anew = account;
-    anew.system.reset();
-    if (Fit with = fit_by_own_scales(setting, account); with.made())
-      weigh_fit(setting, search, anew, VectorXd(account.evidence.tau), std::move(with));
-    if (!anew.refined() || (round > 0 && anew.log_weight < account.log_weight + kStands)) return;
+    Fit with = fit_by_own_scales(setting, account);
+    if (!with.made()) return;
+    LawAccount anew = weighed(account, std::move(with));
+    if (!anew.refined() || !anew.scored || (round > 0 && anew.log_weight < account.log_weight + kStands)) return;
     account = std::move(anew);
   }
+}
+
+void settle_causes(const LawSetting& setting, const LawSearch& search, LawAccount& account) {
+  account.settled = true;
+  account.first_weight = account.log_weight;
+  settle(setting, account, [&](const LawAccount& before, Fit with) {
+    LawAccount anew = before;
+    anew.system.reset();
+    weigh_fit(setting, search, anew, before.evidence.tau, std::move(with));
+    return anew;
+  });
 }
 
 /// Fits a set with its causes in the model from each start of the parameters. A single factor starts from both sides of one:
@@ -216,8 +202,7 @@ VectorXd start_of_set(const LawSearch& search, const LawAccount& set) {
     out = best->evidence.tau;
   out.tail(out.size() - kFirstContrast) *= 0.0;
   for (const int m : set.members)
-    for (const int contrast : search.entries[static_cast<std::size_t>(m)].contrasts)
-      out[kFirstContrast + contrast] = kLeastLeft;
+    for (const int contrast : search.entries[static_cast<std::size_t>(m)].contrasts) out[kFirstContrast + contrast] = kLeft;
   return out;
 }
 
@@ -253,9 +238,9 @@ void settle_rivals(const LawSetting& setting, LawSearch& search) {
           const bool promises = anew.refined() && anew.log_weight > before;
           if (!account.settled) {
             if (promises) account = anew;
-            settle(setting, search, account);
+            settle_causes(setting, search, account);
           } else if (promises) {
-            settle(setting, search, anew);
+            settle_causes(setting, search, anew);
             if (anew.log_weight > account.log_weight) account = std::move(anew);
           }
         },
@@ -286,7 +271,7 @@ std::vector<LawAccount> sets_beside(const LawSetting& setting, const LawSearch& 
   for (const LawAccount& found : beside.accounts) {
     const LawEntry* entry = known_as(beside.entries[static_cast<std::size_t>(found.members.front())]);
     if (leading.size() < kMembersOfSets) leading.push_back(entry);
-    if (out.size() == kTriedBeside || found.log_weight < beside.none.log_evidence + kFarBelow) continue;
+    if (out.size() == kTried || found.log_weight < beside.none.log_evidence + kFarBelow) continue;
     const auto position = static_cast<int>(entry - search.entries.data());
     const auto is_known = [&](int m) { return is_same_cause(search.entries[static_cast<std::size_t>(m)], *entry); };
     if (std::any_of(leader.members.begin(), leader.members.end(), is_known)) continue;
@@ -336,7 +321,6 @@ void look_beside_leader(const LawSetting& setting, LawSearch& search) {
 std::vector<LawAccount*> leading_accounts(LawSearch& search, const std::set<int>& done) {
   const double best = search.accounts.front().log_weight, over = std::max(0.0, best - search.none.log_evidence);
   const double near = best - std::max(kNear, kNearShare * over);
-  const double near_family = best - std::max(kNearFamily, kFamilyShareOf * over);
   const auto candidate_of = [&](const LawAccount& account) {
     return search.entries[static_cast<std::size_t>(account.members.front())].candidate;
   };
@@ -355,7 +339,7 @@ std::vector<LawAccount*> leading_accounts(LawSearch& search, const std::set<int>
     // the others.
     if (first_of_family && account.log_weight > search.none.log_evidence && places[family] <= kOfFewPlaces)
       wholly.insert(family);
-    const bool near_best = (i < kLeading && account.log_weight > near) || (first_of_family && account.log_weight > near_family);
+    const bool near_best = (i < kLeading || first_of_family) && account.log_weight > near;
     // Another family at the leader's own place is its nearest rival, however coarse the screen's magnitudes are.
     const bool same_place = candidate.location == leading_place && leading_place.find(':') != std::string::npos;
     const bool worth = wholly.contains(family) || same_place || (near_best && out.size() < kMostLeading);
@@ -365,6 +349,28 @@ std::vector<LawAccount*> leading_accounts(LawSearch& search, const std::set<int>
 }
 
 }  // namespace
+
+Fit fit_by_own_scales(const LawSetting& setting, const LawAccount& account, const std::vector<int>& aside) {
+  const LawSystem& system = *account.system;
+  const Index rows = system.residual.size();
+  MatrixXd share = MatrixXd::Zero(rows, rows);
+  for (std::size_t c = 0; c < system.classes.size(); ++c) {
+    if (c == kGains) continue;  // unknowns of the fit itself
+    const MatrixXd columns = account.evidence.tau[static_cast<Index>(c)] * system.classes[c];
+    if (columns.size() > 0) share += linalg::square(columns);
+  }
+  for (const int row : aside) share(row, row) += kAside * kAside;
+  const FeatureMap& plain = setting.plain.map();
+  MatrixXd further = MatrixXd::Zero(plain.values().size(), plain.values().size());
+  further(setting.plain.training(), setting.plain.training()) = share;
+  FeatureMap map = with_open(plain, account.opened);
+  map.add_covariance(further);
+  std::vector<Cause> causes = account.with.causes;
+  Index at = 0;
+  for (std::size_t c = causes.size() - account.causes.size(); c < causes.size(); ++c)
+    for (Index k = 0; k < causes[c].a.size(); ++k, ++at) causes[c].a[k] += account.evidence.shift[at];
+  return Inference(map, setting.plain.candidates()).fit(causes, account.with.map.x.head(std::ssize(plain.nuisances())));
+}
 
 bool is_same_cause(const LawEntry& a, const LawEntry& b) {
   return a.candidate->hypothesis == b.candidate->hypothesis && a.candidate->location == b.candidate->location;
@@ -404,34 +410,29 @@ LawAccount weigh_without(const LawSetting& setting, LawSystem system, const std:
   return account;
 }
 
-/// The same at the fit under its own scales, and on while the evidence grows, as accounts with causes settle.
-LawAccount settled_without(const LawSetting& setting, const std::vector<ActiveClass>& contrast, const VectorXd& tau,
-                           const Fit& start) {
-  LawAccount account = weigh_without(setting, law_system(setting.plain, start, setting.contrasts), contrast, tau, start);
-  for (int round = 0; account.scored && round < kLeadingRounds; ++round) {
-    const Fit own = fit_by_own_scales(setting, account);
-    if (!own.made()) break;
-    LawSystem system = law_system(setting.plain, own, setting.contrasts);
-    if (!can_be_weighed(system)) break;
-    LawAccount anew = weigh_without(setting, std::move(system), contrast, account.evidence.tau, own);
-    if (!anew.scored || (round > 0 && anew.log_weight < account.log_weight + kStands)) break;
-    account = std::move(anew);
-  }
-  return account;
-}
-
 /// No cause, and "something else" in each contrast, as they are held against the causes: from a fit without causes, with modes
 /// of their own opened and under their own scales. The better one of two starts counts.
 void weigh_nothing(const LawSetting& setting, LawSearch& search, const Fit& start) {
-  if (!start.made() || !can_be_weighed(law_system(setting.plain, start, setting.contrasts))) return;
+  if (!start.made()) return;
+  const LawSystem at_start = law_system(setting.plain, start, setting.contrasts);
+  if (!can_be_weighed(at_start)) return;
+  const auto weigh = [&](const std::vector<ActiveClass>& contrast, const VectorXd& tau) {
+    LawAccount account = weigh_without(setting, at_start, contrast, tau, start);
+    if (!account.scored) return account;
+    settle(setting, account, [&](const LawAccount& before, const Fit& with) {
+      LawSystem system = law_system(setting.plain, with, setting.contrasts);
+      if (!can_be_weighed(system)) return LawAccount{};
+      return weigh_without(setting, std::move(system), contrast, before.evidence.tau, with);
+    });
+    return account;
+  };
   parallel_for(search.else_weight.size() + 1, [&](std::size_t k) {
     if (k == 0) {
-      LawAccount found = settled_without(setting, {}, search.none.tau, start);
+      LawAccount found = weigh({}, search.none.tau);
       if (!search.nothing.scored || found.log_weight > search.nothing.log_weight) search.nothing = std::move(found);
       return;
     }
-    const LawEvidence& other = search.something_else[k - 1];
-    const LawAccount found = settled_without(setting, {{kFirstContrast + static_cast<int>(k) - 1, 1.0}}, other.tau, start);
+    const LawAccount found = weigh({{kFirstContrast + static_cast<int>(k) - 1, 1.0}}, search.something_else[k - 1].tau);
     if (found.scored) search.else_weight[k - 1] = std::max(search.else_weight[k - 1], kOddsOfAChange + found.log_weight);
   });
 }

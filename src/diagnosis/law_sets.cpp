@@ -17,9 +17,7 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-constexpr std::size_t kScalesOfSets = 3;  ///< accounts whose scales sets are looked at with
-constexpr std::size_t kScoredSets = 3;    ///< sets of each size that get scales and a fit of their own
-constexpr double kPromises = 3.0;         ///< nats that a set may be behind the best smaller one on the linearised base
+constexpr double kPromises = 3.0;  ///< nats that a set may be behind the best smaller one on the linearised base
 
 /// Entries at one choice of scales: products of their signatures with the residual and with one another.
 struct LookAtSets {
@@ -47,7 +45,7 @@ class SetScreen {
     std::size_t looked = 0;
     for (const LawAccount& account : search.accounts) {
       if (!account.scored) continue;
-      if (looked++ == kScalesOfSets) break;
+      if (looked++ == kTried) break;  // their scales are those that sets are looked at with
       const OneLaw::Point at = law.at(account.evidence.tau);
       if (at.lower.size() == 0) continue;
       const MatrixXd s = law.solved(at, signatures);
@@ -124,7 +122,7 @@ struct Promising {
 
 void keep_best(std::vector<Promising>& found) {
   std::stable_sort(found.begin(), found.end(), [](const Promising& a, const Promising& b) { return a.value > b.value; });
-  if (found.size() > kScoredSets) found.resize(kScoredSets);
+  if (found.size() > kTried) found.resize(kTried);
 }
 
 /// Sets of one more than those given.

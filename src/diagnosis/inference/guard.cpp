@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numbers>
 #include <random>
 
@@ -22,15 +21,13 @@ struct Fold {
   double log_evidence = 0.0;  ///< of the other rows, prior included
   double log_density = 0.0;   ///< predictive, of the block
   double square = 0.0;        ///< of the block's standardised residual, mean over magnitudes
-  VectorXd error;             ///< measured less predicted, mean over magnitudes
 };
 
 Fold fold_of(const Explanation& e, const MatrixXd& u, const VectorXd& chi_squared, const std::vector<int>& block) {
   const MatrixXd lower = linalg::cholesky_factor(e.precision->matrix(block, block));
   TWINDECK_ASSERT(lower.size() > 0);
   const double log_block = 2.0 * lower.diagonal().array().log().sum();
-  const MatrixXd standardised = linalg::lower_solve(lower, u(block, Eigen::all));
-  const VectorXd own = standardised.colwise().squaredNorm();
+  const VectorXd own = linalg::lower_solve(lower, u(block, Eigen::all)).colwise().squaredNorm();
   const auto rows = static_cast<double>(block.size());
   std::vector<double> weight, joint;
   for (Index k = 0; k < own.size(); ++k) {
@@ -40,13 +37,8 @@ Fold fold_of(const Explanation& e, const MatrixXd& u, const VectorXd& chi_square
   Fold out;
   out.log_evidence = log_sum(weight);
   out.log_density = log_sum(joint) - out.log_evidence;
-  VectorXd mean = VectorXd::Zero(std::ssize(block));
-  for (Index k = 0; k < own.size(); ++k) {
-    const double share = std::exp(weight[static_cast<std::size_t>(k)] - out.log_evidence);
-    out.square += share * own[k];
-    mean += share * standardised.col(k);
-  }
-  out.error = linalg::lower_solve(lower, mean, true);
+  for (Index k = 0; k < own.size(); ++k)
+    out.square += std::exp(weight[static_cast<std::size_t>(k)] - out.log_evidence) * own[k];
   return out;
 }
 
@@ -111,26 +103,19 @@ PredictiveGain gain_of_odds(const std::vector<std::vector<int>>& blocks, const E
     u.push_back(linalg::product(e->precision->matrix, e->left));
     chi_squared.emplace_back(u.back().cwiseProduct(e->left).colwise().sum());
   }
-  out.error_before = out.error_after = VectorXd::Constant(none.left.rows(), std::numeric_limits<double>::quiet_NaN());
   for (const std::vector<int>& block : blocks) {
     BlockGain gain;
     gain.rows = static_cast<int>(block.size());
-    std::vector<double> rest, whole;
-    std::vector<Fold> folds;
+    std::vector<double> rest, whole, square;
     for (std::size_t k = 0; k < all.size(); ++k) {
       const Fold fold = fold_of(*all[k], u[k], chi_squared[k], block);
       rest.push_back(fold.log_evidence);
       whole.push_back(fold.log_evidence + fold.log_density);
-      folds.push_back(fold);
+      square.push_back(fold.square);
     }
-    gain.before = folds.front().square;
-    out.error_before(block) = folds.front().error;
-    out.error_after(block).setZero();
+    gain.before = square.front();
     const double sum = log_sum(rest);
-    for (std::size_t k = 0; k < all.size(); ++k) {
-      gain.after += std::exp(rest[k] - sum) * folds[k].square;
-      out.error_after(block) += std::exp(rest[k] - sum) * folds[k].error;
-    }
+    for (std::size_t k = 0; k < all.size(); ++k) gain.after += std::exp(rest[k] - sum) * square[k];
     gain.chosen = static_cast<int>(std::max_element(rest.begin(), rest.end()) - rest.begin()) - 1;
     gain.log_gain = (log_sum(whole) - whole.front()) - (sum - rest.front());
     out.blocks.push_back(gain);

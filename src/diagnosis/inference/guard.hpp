@@ -29,8 +29,7 @@ struct BlockGain {
 
 struct PredictiveGain {
   std::vector<BlockGain> blocks;
-  Eigen::VectorXd error_before, error_after;     ///< (n_rows) measured less what rows of other blocks predict; NaN outside all
-  double log_gain = 0.0, low = 0.0, high = 0.0;  ///< sum over blocks; 5 and 95 % quantiles of resampled blocks
+  double log_gain = 0.0, low = 0.0, high = 0.0;               ///< sum over blocks; 5 and 95 % quantiles of resampled blocks
   double reduction_pct = 0.0, low_pct = 0.0, high_pct = 0.0;  ///< of the RMS of standardised residuals
 };
 

@@ -128,24 +128,5 @@ TEST(GainOfOdds, IsWhatTheBlockAddsToTheOdds) {
   EXPECT_NEAR(gain.log_gain, sum, 1e-9);
 }
 
-TEST(GainOfOdds, ErrorsAreOfWhatTheOtherBlocksPredict) {
-  Rows rows(7);
-  const VectorXd r = rows.draw() + 3.0 * rows.cause;
-  Explanation with = rows.none(r - 3.0 * rows.cause);
-  with.log_weight.array() += 200.0;  // the cause alone counts after
-  const auto gain = diagnosis::gain_of_odds({rows.blocks[2]}, rows.none(r), {with}, 100, 1);
-  const MatrixXd sigma = rows.factor * rows.factor.transpose() + rows.columns * rows.columns.transpose();
-  std::vector<int> seen;
-  for (int i = 0; i < r.size(); ++i)
-    if (std::find(rows.blocks[2].begin(), rows.blocks[2].end(), i) == rows.blocks[2].end()) seen.push_back(i);
-  const auto error = [&](const VectorXd& left) {
-    const VectorXd predicted = sigma(rows.blocks[2], seen) * MatrixXd(sigma(seen, seen)).inverse() * left(seen);
-    return VectorXd(left(rows.blocks[2]) - predicted);
-  };
-  EXPECT_LT((gain.error_before(rows.blocks[2]) - error(r)).norm(), 1e-9);
-  EXPECT_LT((gain.error_after(rows.blocks[2]) - error(r - 3.0 * rows.cause)).norm(), 1e-9);
-  EXPECT_TRUE(std::isnan(gain.error_after[0])) << "rows outside all blocks are not left out";
-}
-
 }  // namespace
 }  // namespace twindeck::tests
