@@ -1,5 +1,6 @@
 #include "core/build_info.hpp"
 
+#include <dlfcn.h>
 #include <link.h>
 
 #include <Eigen/Core>
@@ -102,6 +103,8 @@ std::map<std::string, std::string> library_versions() {
   // Shared libraries: the full name of the file that this very program has loaded ends in its version, which a header of
   // the build machine would not know ("libceres.so.2.1.0", "libcholmod.so.3.0.14", "libopenblasp-r0.3.21.so").
   dl_iterate_phdr(&note_library, &versions);
+  if (void* const kernels = dlsym(RTLD_DEFAULT, "openblas_get_corename"))
+    versions["OpenBLAS kernels"] = reinterpret_cast<const char* (*)()>(kernels)();
   return versions;
 }
 

@@ -13,6 +13,7 @@ namespace twindeck::diagnosis {
 struct HeldOutMode {
   std::string mode, condition;
   double frequency_before_pct = 0.0, frequency_after_pct = 0.0;  ///< predicted less measured, of the measured
+  double damping_before_pct = 0.0, damping_after_pct = 0.0;      ///< the same of damping ratios with dampers on, else NaN
   double mac_before = 0.0, mac_after = 0.0;                      ///< [-] with the measured shape; NaN where there is none
 };
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <memory>
 #include <set>
 
@@ -136,9 +137,13 @@ std::vector<HeldOutMode> held_out_modes(const LawSetting& setting, const LawSear
     const Prediction &without = before[static_cast<std::size_t>(block - blocks.begin())],
                      &with = after[static_cast<std::size_t>(block - blocks.begin())];
     if (!without.valid || !with.valid || without.paired[m] < 0 || with.paired[m] < 0) continue;
-    const auto off_pct = [&](const Prediction& p) { return 100.0 * (p.frequency_Hz[m] / mode.frequency_Hz - 1.0); };
-    out.push_back({mode.label, map.features().conditions[static_cast<std::size_t>(mode.condition)].name, off_pct(without),
-                   off_pct(with), without.mac[m], with.mac[m]});
+    const auto off_pct = [&](const Prediction& p, int r) {  // rows are logarithms
+      return r < 0 ? std::numeric_limits<double>::quiet_NaN() : 100.0 * std::expm1(p.g[r] - map.values()[r]);
+    };
+    const Condition& condition = map.features().conditions[static_cast<std::size_t>(mode.condition)];
+    const int damping = condition.dampers_on.value_or(false) ? mode.damping : -1;  // without dampers no model computes it
+    out.push_back({mode.label, condition.name, off_pct(without, mode.frequency), off_pct(with, mode.frequency),
+                   off_pct(without, damping), off_pct(with, damping), without.mac[m], with.mac[m]});
   }
   return out;
 }

@@ -227,9 +227,11 @@ class Headline(unittest.TestCase):
     def test_no_gain_is_claimed_where_frequencies_get_worse(self):
         """However much smaller the standardised residuals are."""
         gain = made_up_answer.diagnosis()["gain"] | {"reduction_pct": 84.0, "interval_pct": [79.0, 86.0]}
-        text = self.sentence(gain=gain, raw=self.raw((0.99, 0.96), (1.01, 1.0)))
-        self.assertTrue(text.endswith("; no gain: unfitted frequency errors rise from 1 to 2 %."), text)
+        text = self.sentence(gain=gain, raw=self.raw((0.99, 0.96), (1.01, 1.02)))
+        self.assertTrue(text.endswith("; no gain: unfitted frequency errors rise from 1 to 3 %."), text)
         self.assertNotIn("84", text)
+        within_its_error = self.sentence(gain=gain, raw=self.raw((0.99, 0.96), (1.01, 1.0)))  # grows by 1 %, with a standard error of 2 %
+        self.assertTrue(within_its_error.endswith("; unfitted frequency errors rise from 1 to 2 %."), within_its_error)
         text = self.sentence(gain=gain | {"interval_pct": [-2.0, 86.0]}, raw=self.raw((0.96, 0.99)))
         self.assertTrue(text.endswith("; no gain shown: unfitted frequency errors fall from 4 to 1 %."), text)
 

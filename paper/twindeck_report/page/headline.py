@@ -131,13 +131,13 @@ def _gained(gain: dict, raw: RawErrors | None) -> list:
     which = "unfitted" if raw.held_out else "fitted"
     no = "no gain: " if raw.worse else "" if gain["interval_pct"][0] > 0 else "no gain shown: "
     before, after = (f"{error:.2g}" for error in raw.frequency)
-    errors = f"stay at {after} %" if before == after else f"{'rise' if raw.worse else 'fall'} from {before} to {after} %"
+    errors = f"stay at {after} %" if before == after else f"{'rise' if raw.frequency[1] > raw.frequency[0] else 'fall'} from {before} to {after} %"
     return [f"{no}{which} frequency errors {errors}{_but(raw)}"]
 
 
 def _but(raw: RawErrors) -> str:
     """The frequencies whose error grows, where the mean does not."""
-    if raw.worse or not raw.further_off:
+    if raw.frequency[1] > raw.frequency[0] or not raw.further_off:
         return ""
     return f", but mode {raw.further_off[0].mode}'s grows" if len(raw.further_off) == 1 else f", but {len(raw.further_off)} grow"
 

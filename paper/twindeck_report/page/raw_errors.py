@@ -1,6 +1,7 @@
 """Errors as an engineer reads them: frequencies in per cent of the measured ones and MAC, without and with the causes in the model. Modes that no fit
 has seen where step 9 tells them (`gain.raw` of diagnosis.json, or frequencies marked as held out), else the fitted ones, which are said to be fitted."""
 from dataclasses import dataclass
+from statistics import stdev
 
 from .heatmap import OWN
 from .telling import Telling, Told
@@ -12,13 +13,11 @@ class RawErrors:
     held_out: bool
     modes: int
     frequency: tuple  # (before, after) mean of the absolute errors [%]
+    worse: bool  # by more than the standard error of the mean: step 9 claims no gain then
     mac: tuple | None  # (before, after) mean over the modes that have both; None where no shape was measured
-    damping: tuple | None  # (before, after) as `frequency`, of the damping ratios that were fitted
+    damping: tuple | None  # (before, after) as `frequency`, of the damping ratios
+    damping_fitted: bool
     further_off: list  # of Told: modes whose frequency the causes move away from the measured one by more than its standard deviation
-
-    @property
-    def worse(self) -> bool:
-        return self.frequency[1] >= self.frequency[0]
 
 
 def raw_errors(told: Telling | None) -> RawErrors | None:
@@ -27,8 +26,10 @@ def raw_errors(told: Telling | None) -> RawErrors | None:
         return None
     rows = [r for r in told.rows if r.held_out] or told.rows
     alike = [(r.mac_before, r.mac_after) for r in rows if r.mac_before == r.mac_before and r.mac_after == r.mac_after]
-    return RawErrors(rows[0].held_out, len(rows), tuple(_mean(abs(r.error(side)) for r in rows) for side in ("before", "after")),
-                     tuple(map(_mean, zip(*alike))) if alike else None, told.damping, sorted(filter(_further_off, rows), key=lambda r: -abs(r.error("after"))))
+    growth = [abs(r.error("after")) - abs(r.error("before")) for r in rows]
+    worse = _mean(growth) > (stdev(growth) / len(growth) ** 0.5 if len(growth) > 1 else 0.0)
+    return RawErrors(rows[0].held_out, len(rows), tuple(_mean(abs(r.error(side)) for r in rows) for side in ("before", "after")), worse,
+                     tuple(map(_mean, zip(*alike))) if alike else None, told.damping, not told.damping_held_out, sorted(filter(_further_off, rows), key=lambda r: -abs(r.error("after"))))
 
 
 def _further_off(row: Told) -> bool:
@@ -48,7 +49,7 @@ def in_words(raw: RawErrors, most: int | None = None) -> str:
     if raw.mac:
         told.append(f"MAC {_both(raw.mac, '{:.2f}')}")
     if raw.damping:
-        told.append(f"{'fitted ' if raw.held_out else ''}damping ratios off by {_both(raw.damping, '{:.2g} %')}")
+        told.append(f"{'fitted ' if raw.held_out and raw.damping_fitted else ''}damping ratios off by {_both(raw.damping, '{:.2g} %')}")
     worse = "; ".join(map(_changed, raw.further_off[:most]))
     left_out = len(raw.further_off[most:]) if most else 0
     return f"{'; '.join(told)}.{f' Further off than before: {worse}' if worse else ''}{f' and {left_out} more' if left_out else ''}{'.' if worse else ''}"

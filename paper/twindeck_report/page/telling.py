@@ -38,7 +38,8 @@ class Telling:
     rows: list  # of Told
     before: str  # what `before` is
     after: str  # what `after` is, empty where there is no such model
-    damping: tuple | None = None  # (before, after) mean of the absolute errors of the damping ratios [%], where they were fitted too
+    damping: tuple | None = None  # (before, after) mean of the absolute errors of the damping ratios [%]
+    damping_held_out: bool = False  # those that no fit has seen; else the fitted ones
 
 
 def telling(study: Study, told: dict | None) -> tuple:
@@ -70,6 +71,10 @@ def _of_rows(study: Study, told: dict) -> Telling | None:
         return None
     after = ("model with the causes in it" if len(told["effects"]) > 1 else "model with the cause in it") if told["effects"] else ""
     before = "model fitted to all other modes" if held else "model fitted within its bounds"
+    held_damping = [[r.get(f"damping_error_pct_{side}") for side in ("before", "after")] for r in held.values()]
+    held_damping = np.abs([pair for pair in held_damping if None not in pair])
+    if len(held_damping):
+        return Telling(rows, before, after, tuple(map(float, held_damping.mean(axis=0))), True)
     return Telling(rows, before, after, _damping(table[table["type"] == "damping_ratio_pct"]))
 
 

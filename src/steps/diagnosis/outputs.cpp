@@ -152,6 +152,8 @@ nlohmann::ordered_json gain_json(const Diagnosis& result) {
                            {"condition", mode.condition},
                            {"frequency_error_pct_before", mode.frequency_before_pct},
                            {"frequency_error_pct_after", mode.frequency_after_pct},
+                           {"damping_error_pct_before", mode.damping_before_pct},
+                           {"damping_error_pct_after", mode.damping_after_pct},
                            {"mac_before", mode.mac_before},
                            {"mac_after", mode.mac_after}});
   if (const auto explained = diagnosis::explained_gain(result)) {
