@@ -132,14 +132,14 @@ check-power: build ## change the inputs one at a time and see what the check not
 smoke: build ## the whole chain, small, under results/smoke
 	@$(MAKE) --no-print-directory steps STUDY=smoke
 
-N ?= $(if $(filter exam,$(TIER)),45,$(if $(filter chain,$(TIER)),40,400))
+N ?= $(if $(filter exam,$(TIER)),45,$(if $(filter chain,$(TIER)),40,$(if $(filter matrices,$(TIER)),16,400)))
 TIER ?= features
 SEED ?= 1
 WITH ?=
 BLIND = $(if $(filter features,$(TIER)),blind_trials,$(if $(filter form,$(TIER)),blind_form,blind_records))
 BLIND_LAST = $(if $(filter form,$(TIER)),results/blind/form_$(SEED)_$(N).csv,$(filter-out features,$(TIER)))
-blind-trials: build ## make blind-trials N=400 TIER=features, form, exam, chain or time (exam and chain: from raw records, WITH="…" for their options): hidden effects looked for, scored with intervals
-ifneq ($(filter exam chain,$(TIER)),)
+blind-trials: build ## make blind-trials N=400 TIER=features, form, exam, chain, matrices or time (exam and chain: from raw records; matrices: of a real bridge, in ../shared; WITH="…" for their options): hidden effects looked for, scored with intervals
+ifneq ($(filter exam chain matrices,$(TIER)),)
 	@$(PRODUCT)workflows/python.sh tests/blind/$(TIER)/$(TIER).py $(BIN) results/$(TIER) $(N) $(SEED) $(WITH)
 else
 	@cmake --build $(BUILD) -j $(JOBS) --target $(BLIND)
