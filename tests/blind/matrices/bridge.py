@@ -108,7 +108,7 @@ def geometry(stiffness, mass, joint_of):
             place[joint, :2] = -turn_y[dof], turn_x[dof]
         elif direction[dof] == Y:
             place[joint, 2] = -turn_x[dof]
-    return direction, place - place.min(axis=0)
+    return direction, np.round(place - place.min(axis=0), 3)  # free of rounding, so that draws do not depend on the threads of a library
 
 
 @functools.lru_cache(maxsize=1)

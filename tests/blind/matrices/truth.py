@@ -67,8 +67,8 @@ def draw_form(bridge, random):
     stiffness = {part: STIFFNESS * field(bridge.place, random, bridge.length) for part in bridge.stiffness}
     moving = np.flatnonzero((bridge.direction == matrices.Y) | (bridge.direction == matrices.Z))
     springs = [(int(dof), STRAY * float(random.uniform(0.3, 1.0))) for dof in random.choice(moving, 6, replace=False)]
-    far = [j for j in range(len(bridge.place)) if bridge.place[j, 0] > bridge.length - 1.0 and bridge.place[j, 2] < 1.0 and bridge.place[j, 1] in (0.0, bridge.place[:, 1].max())]
-    springs += [(dof, RUBBING * float(random.uniform(0.3, 1.0))) for joint in far for dof in bridge.dofs_of(joint, matrices.X)]
+    far = bridge.joint_of[np.flatnonzero(np.diag(bridge.stiffness["z2"]))]
+    springs += [(dof, RUBBING * float(random.uniform(0.3, 1.0))) for joint in far for dof in bridge.dofs_of(int(joint), matrices.X)]
     return Form(stiffness, MASS * field(bridge.place, random, bridge.length), OFFSET_in * field(bridge.place, random, bridge.length), springs)
 
 
