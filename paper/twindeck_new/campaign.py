@@ -48,8 +48,13 @@ def write_campaign(records: list, tables: list, folder: Path) -> Written:
             entries.append(_entry(f"ST{number}", record, names, condition, missing))
         for name, column, unit in zip(names, columns, group[0].units):
             known.setdefault(name, _channel(name, column, unit, group[0], tables))
-        if len(layouts) > 1 and number == 1:
-            missing.append("channels.csv: `reference` = 1 for the channels that stayed in place in all setups; they tie the setups together")
+    shared = set.intersection(*(set(columns) for columns in layouts)) if len(layouts) > 1 and all(r.named for r in records) else set()
+    for name, row in known.items():
+        row["reference"] = "1" if name in {channel_name(c, 1) for c in shared} else row["reference"]
+    if len(layouts) > 1 and not shared:
+        missing.append("channels.csv: `reference` = 1 for the channels that stayed in place in all setups; they tie the setups together")
+    if len(layouts) > 1 and len(set(conditions) - {"as_tested"}) > 1:
+        missing.append("campaign.toml: one and the same `condition` for the records of all setups that were made in one state; they are joined then")
     if len(conditions) > len(layouts):
         missing.append("conditions.toml: what was different between the records: temperature_C, wind_m_s, state = \"name\" where the structure itself changed")
     (folder / "campaign.toml").write_text("\n".join(entries), encoding="utf-8")

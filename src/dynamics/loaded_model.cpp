@@ -1,5 +1,6 @@
 #include "dynamics/loaded_model.hpp"
 
+#include <algorithm>
 #include <utility>
 
 #include "dynamics/model_check.hpp"
@@ -63,6 +64,21 @@ LoadedModel with_values(const LoadedModel& loaded, const Eigen::VectorXd& theta)
 
 EigenModes available_modes(const fe::ParametricSystem& system, const Eigen::VectorXd& theta, int n_modes) {
   return ModalSolver(system).solve_available(theta, n_modes);
+}
+
+int modes_for_band(const fe::ParametricSystem& system, const Eigen::VectorXd& theta, int n_modes,
+                   const Eigen::VectorXd& measured_Hz, double error) {
+  constexpr int most = 200;  // what steps solve for at most
+  ModalSolver solver(system);
+  double wanted = measured_Hz.size() > 0 ? measured_Hz.maxCoeff() : 0.0;
+  for (int n = n_modes;; n = std::min(2 * n, most)) {
+    const Eigen::VectorXd found = solver.solve_available(theta, n).frequency_Hz;
+    const auto below = static_cast<int>((found.array() < wanted).count());
+    if (n == n_modes && below < found.size()) return n_modes;
+    wanted = (1.0 + error) * measured_Hz.maxCoeff();
+    if (found.size() < n || n >= most || found[found.size() - 1] >= wanted)
+      return std::max(n_modes, static_cast<int>((found.array() < wanted).count()));
+  }
 }
 
 }  // namespace twindeck::dynamics

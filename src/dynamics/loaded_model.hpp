@@ -60,4 +60,9 @@ struct LoadedModel {
 /// The lowest modes, as many of `n_modes` as the structure has.
 [[nodiscard]] EigenModes available_modes(const fe::ParametricSystem& system, const Eigen::VectorXd& theta, int n_modes);
 
+/// How many of the lowest modes pairing with measured ones needs: `n_modes`, or where these end below the highest measured
+/// frequency, as many as lie within the relative `error` above it.
+[[nodiscard]] int modes_for_band(const fe::ParametricSystem& system, const Eigen::VectorXd& theta, int n_modes,
+                                 const Eigen::VectorXd& measured_Hz, double error);
+
 }  // namespace twindeck::dynamics

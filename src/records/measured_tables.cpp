@@ -250,7 +250,8 @@ std::string choose_condition(const std::filesystem::path& file, const std::vecto
                    fmt::format("has {} conditions{}{}", names.size(), of_state,
                                dampers ? fmt::format(", {} of them with dampers = \"off\"", off.size()) : std::string()),
                    names.empty() ? "add a table for each condition of rows.csv"
-                                 : fmt::format("give one of {} as --condition, or in the key `condition` of the step",
+                                 : fmt::format("give one of {} as --condition, or in the key `condition` of the step; setups "
+                                               "of one test are joined where campaign.toml gives them one condition",
                                                fmt::join(names, ", ")));
 }
 

@@ -11,11 +11,15 @@
 
 namespace {
 using namespace twindeck;
-Status run(const steps::UpdatingConfig& config, const steps::UpdatingInputs& read, runner::StepContext& context) {
+Status run(const steps::UpdatingConfig& asked, const steps::UpdatingInputs& read, runner::StepContext& context) {
   // 1. The refined model and the measured modes.
   const auto& [model, measured, active, selected, published] = read;
   const dynamics::LoadedModel before = dynamics::solvable(model);
   if (!before.state.status.converged) return before.state.status;
+  steps::UpdatingConfig config = asked;
+  if (measured.modes.has_shapes())
+    config.n_modes = dynamics::modes_for_band(before.system, before.theta, static_cast<int>(asked.n_modes),
+                                              measured.modes.frequency_Hz, asked.maximum_frequency_error);
 
   // 2. Which measured mode belongs to which computed one.
   const auto modes_before = dynamics::available_modes(before.system, before.theta, static_cast<int>(config.n_modes));

@@ -88,6 +88,16 @@ class Pieces(unittest.TestCase):
         self.assertEqual(settings.peaks_of(f, noise), [])
         self.assertEqual([round(p, 2) for p in settings.peaks_of(f, noise + 50.0 / (1.0 + ((f - 7.0) / 0.04) ** 2))], [7.0])
 
+    def test_setups_of_two_states(self):
+        """A column that all setups have by its name is one sensor, which ties them; nobody but the engineer knows which records belong together."""
+        records = [inspection.Record(self.write(f"{name}.csv", ""), 100.0, columns, ("g",) * 2, 1000)
+                   for name, columns in (("a24", ("ref", "p1")), ("b24", ("ref", "p2")), ("a25", ("ref", "p1")), ("b25", ("ref", "p2")))]
+        written = campaign.write_campaign(records, [], self.folder / "out")
+        told = [line.split(",") for line in (self.folder / "out/channels.csv").read_text().splitlines()[1:]]
+        self.assertEqual([(row[0], row[campaign.HEADER.index("reference")]) for row in told], [("ref", "1"), ("p1", "0"), ("p2", "0")])
+        self.assertEqual([line for line in written.missing if "`reference`" in line], [])
+        self.assertEqual(len([line for line in written.missing if "one and the same `condition`" in line]), 1)
+
     def test_names_of_columns_become_names_of_channels(self):
         self.assertEqual([campaign.channel_name(c, i) for i, c in enumerate(("Acc A [g]", "column 2", "ok_3", "µ"), 1)], ["Acc_A_g", "c2", "ok_3", "c4"])
 

@@ -23,7 +23,9 @@ namespace twindeck::steps {
 
 io::FieldTable RefinementConfig::fields() {
   io::FieldTable table;
-  table.integer("n_modes", n_modes, {1, 1000}, "computed modes that are written and compared")
+  table
+      .integer("n_modes", n_modes, {1, 1000},
+               "computed modes that are written and compared; more where measured shapes lie above them")
       .integer("extra_modes", extra_modes, {0, 1000},
                "modes solved for beyond n_modes, so that a followed mode is found when it moves up")
       .text("variant", variant, "variant of the generator that is the refined model")
@@ -132,8 +134,11 @@ Status run_refinement(runner::StepContext& context, const RefinementConfig& conf
   // 1. Initial and refined model, with their modes. A model of the user's own is both.
   dynamics::LoadedModel initial_model = dynamics::solvable(read.initial);
   dynamics::LoadedModel refined_source = read.refined ? dynamics::solvable(*read.refined) : initial_model;
-  const auto n = static_cast<int>(
+  auto n = static_cast<int>(
       std::min<Eigen::Index>(config.n_modes, std::min(initial_model.system.size(), refined_source.system.size())));
+  if (read.measured && read.measured->modes.has_shapes() && !read.generated)  // a generator's tables have a set number
+    n = dynamics::modes_for_band(refined_source.system, refined_source.theta, n, read.measured->modes.frequency_Hz,
+                                 config.maximum_frequency_error);
   const matching::SolvedModel initial = matching::solve_modes(std::move(initial_model), n);
   const matching::SolvedModel refined = matching::solve_modes(std::move(refined_source), n);
   model_io::write_modes(model_io::published_modes(refined.loaded.fe_model(), refined.loaded.system, refined.modes),

@@ -158,7 +158,8 @@ io::FieldTable UpdatingConfig::fields() {
             "dampers were switched the only one without")
       .number("trust_radius", trust_radius, "", io::positive(), "initial trust radius of the dogleg, in normalised parameters")
       .integer("starts", starts, {1.0, 1000.0}, "searches: from the initial values, and from seeded points inside the bounds")
-      .integer("n_modes", n_modes, {1.0, 200.0}, "modes solved for, among which the paired ones are followed")
+      .integer("n_modes", n_modes, {1.0, 200.0},
+               "modes solved for, among which the paired ones are followed; more where measured shapes lie above them")
       .integer("max_iterations", max_iterations, {1.0, 1e5}, "most steps of one solve at fixed prestress")
       .integer("outer_iterations", outer_iterations, {1.0, 1000.0}, "most prestress states of one search")
       .number("optimality_tolerance", optimality_tolerance, "", {1e-12, 1e-2, true},

@@ -159,5 +159,17 @@ TEST(WithDisplacements, SetsWhatIsAskedFor) {
   EXPECT_EQ(read.fe_model()->prestress.displacements, fe::Prestress{}.displacements);  // the first stays
 }
 
+TEST(LoadedModel, ModesReachTheMeasuredBand) {
+  const tests::SpringChain chain;
+  const fe::ParametricSystem system = chain.system();
+  const auto count = [&](int asked, double highest_Hz) {
+    return modes_for_band(system, system.initial(), asked, Eigen::Vector2d(chain.frequency_Hz(1), highest_Hz), 0.1);
+  };
+  EXPECT_EQ(count(3, 0.9 * chain.frequency_Hz(3)), 3) << "the last of them lies above all that is measured";
+  EXPECT_EQ(count(3, chain.frequency_Hz(6) / 1.05), 6) << "those within a tenth above";
+  EXPECT_EQ(count(3, 2.0 * chain.frequency_Hz(10)), 10) << "as many as there are";
+  EXPECT_EQ(modes_for_band(system, system.initial(), 3, {}, 0.1), 3);
+}
+
 }  // namespace
 }  // namespace twindeck::dynamics
