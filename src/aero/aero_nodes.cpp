@@ -61,11 +61,9 @@ std::vector<CrossSection> cross_sections(const fe::Model& model, const std::stri
 // monotonically.
 void order(std::vector<CrossSection>& lines) {
   Eigen::Vector3d chord = Eigen::Vector3d::Zero();
-  for (const CrossSection& a : lines) {
-    for (const CrossSection& b : lines) {
+  for (const CrossSection& a : lines)
+    for (const CrossSection& b : lines)
       if ((b.centre - a.centre).norm() > chord.norm()) chord = b.centre - a.centre;
-    }
-  }
   // From south to north (or west to east), whatever the numbering.
   if (chord.x() < 0.0 || (chord.x() == 0.0 && chord.y() < 0.0)) chord = -chord;
   std::sort(lines.begin(), lines.end(),
@@ -84,9 +82,8 @@ std::pair<double, double> between_end_stays(const fe::Model& model, const std::v
   std::map<int, int> carrier;
   for (const fe::RigidLink& link : model.links) carrier[link.slave] = link.master;
   std::map<int, double> station;
-  for (const CrossSection& line : lines) {
+  for (const CrossSection& line : lines)
     for (const int node : line.nodes) station[node] = line.station;
-  }
   double first = lines.back().station, last = lines.front().station;
   for (const fe::Element& e : model.elements) {
     if (e.type != fe::ElementType::stay) continue;

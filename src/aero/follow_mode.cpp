@@ -240,9 +240,8 @@ std::optional<double> divergence_speed(const AeroelasticSystem& system) {
   const Eigen::MatrixXd ratio = inverse.asDiagonal() * system.static_stiffness() * inverse.asDiagonal();
   const Eigen::VectorXcd values = Eigen::EigenSolver<Eigen::MatrixXd>(ratio, false).eigenvalues();
   double largest = 0.0;
-  for (const std::complex<double>& value : values) {
+  for (const std::complex<double>& value : values)
     if (std::abs(value.imag()) <= 1e-9 * std::abs(value)) largest = std::max(largest, value.real());
-  }
   if (largest <= 0.0) return std::nullopt;
   return 1.0 / std::sqrt(largest);
 }

@@ -31,10 +31,9 @@ double nearest_to_zero(const std::vector<double>& alpha) {
 }
 
 std::optional<std::string> drag(const Polar& polar) {
-  for (const double alpha : polar.alpha_rad()) {
+  for (const double alpha : polar.alpha_rad())
     if (const double c = polar.at(alpha).drag; !(c > 0.0))
       return fmt::format("{}: C_D is {:.4g} at {:.3g} degrees, expected a positive drag", polar.source(), c, alpha * degrees);
-  }
   return std::nullopt;
 }
 

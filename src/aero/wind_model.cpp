@@ -24,9 +24,8 @@ bool is_damper_of_wind(const fe::Spring& spring) { return spring.group.starts_wi
 
 std::vector<const fe::Spring*> dampers_of(const fe::Model& model) {
   std::vector<const fe::Spring*> dampers;
-  for (const fe::Spring& spring : model.springs) {
+  for (const fe::Spring& spring : model.springs)
     if (is_damper_of_wind(spring)) dampers.push_back(&spring);
-  }
   return dampers;
 }
 
@@ -51,14 +50,11 @@ linalg::SparseMatrix sum_of_outer_products(const Eigen::MatrixXd& patterns, cons
   std::vector<Eigen::Triplet<double>> entries;
   for (Eigen::Index j = 0; j < patterns.cols(); ++j) {
     std::vector<int> rows;
-    for (Eigen::Index i = 0; i < patterns.rows(); ++i) {
+    for (Eigen::Index i = 0; i < patterns.rows(); ++i)
       if (patterns(i, j) != 0.0) rows.push_back(static_cast<int>(i));
-    }
-    for (const int a : rows) {
-      for (const int b : rows) {
+    for (const int a : rows)
+      for (const int b : rows)
         if (a >= b) entries.emplace_back(a, b, factor[j] * patterns(a, j) * patterns(b, j));
-      }
-    }
   }
   linalg::SparseMatrix sum(patterns.rows(), patterns.rows());
   sum.setFromTriplets(entries.begin(), entries.end());
@@ -68,9 +64,8 @@ linalg::SparseMatrix sum_of_outer_products(const Eigen::MatrixXd& patterns, cons
 linalg::SparseMatrix stiffness_with(const dynamics::LoadedModel& loaded, const std::vector<const fe::Spring*>& dampers) {
   linalg::SparseMatrix stiffness = loaded.system.stiffness(loaded.theta);
   std::vector<const fe::Spring*> missing;
-  for (const fe::Spring* damper : dampers) {
+  for (const fe::Spring* damper : dampers)
     if (!damper->active && !damper->series && damper->stiffness > 0.0) missing.push_back(damper);
-  }
   if (missing.empty()) return stiffness;
   Eigen::VectorXd spring(static_cast<Eigen::Index>(missing.size()));
   for (std::size_t j = 0; j < missing.size(); ++j) spring[static_cast<Eigen::Index>(j)] = missing[j]->stiffness;
@@ -125,9 +120,8 @@ WindModel prepare_wind_model(const WindSettings& config, const dynamics::LoadedM
   out.nodes = aero_nodes_of(config, loaded.fe_model(), loaded.source);
   out.strips = strips_of(out.nodes, config.deck_names(), config.wind());
   const auto shape = motions_of(out.nodes, loaded.state.displacement);
-  for (std::size_t i = 0; i < out.strips.size(); ++i) {
+  for (std::size_t i = 0; i < out.strips.size(); ++i)
     out.strips[i].alpha_rad = config.attack_deg * radians + aero::nose_up(out.strips[i], shape[i].col(0).tail<3>());
-  }
   dynamics::ModalSolver solver(loaded.system);
   const auto n_modes = static_cast<int>(std::min<Eigen::Index>(config.n_modes, loaded.system.size()));
   out.modes = solver.solve(loaded.theta, n_modes);

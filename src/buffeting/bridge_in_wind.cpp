@@ -56,9 +56,8 @@ Sensors find_sensors(const dynamics::LoadedModel& loaded, const aero::WindModel&
 
 std::vector<std::string> accelerometers(const fe::Model& model) {
   std::vector<std::string> names;
-  for (const auto& [name, node] : model.monitoring_points) {
+  for (const auto& [name, node] : model.monitoring_points)
     if (name.starts_with("M")) names.push_back(name);
-  }
   return names;
 }
 

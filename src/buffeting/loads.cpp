@@ -18,9 +18,8 @@ LoadFactor buffeting_factor(const aero::SectionAero& section, const aero::Strip&
   const aero::StaticFactor rule_factor = aero::static_factor(rule, strip.yaw_rad);
   factor.topRows<2>() *= rule_factor.force;
   factor.row(2) *= rule_factor.moment;
-  if (rule.statics == aero::StaticRule::cosine && equations == aero::Equations::consistent) {
+  if (rule.statics == aero::StaticRule::cosine && equations == aero::Equations::consistent)
     factor.col(1) /= aero::yaw_cosine(strip.yaw_rad);
-  }
   return 0.5 * density_kg_m3 * speed_m_s * section.chord_m * strip.length_m * factor;
 }
 

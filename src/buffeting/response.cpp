@@ -21,9 +21,8 @@ transient::LinearSystem equations_of_motion(const aero::AeroelasticSystem& syste
   out.damping = structure.damping() - wind.damping;
   out.stiffness = -wind.stiffness;
   out.stiffness.diagonal() += structure.omega_rad_s.cwiseAbs2();
-  for (const aero::MaxwellUnit& unit : structure.maxwell) {
+  for (const aero::MaxwellUnit& unit : structure.maxwell)
     transient::add_maxwell(out, unit.direction, unit.stiffness_N_m, unit.damping_N_s_m);
-  }
   return out;
 }
 

@@ -27,9 +27,8 @@ VectorXd vertical_rms(const BridgeInWind& bridge, const MatrixXd& acceleration) 
 
 void append(std::vector<TimeCheck>& checks, const std::string& name, const BridgeInWind& bridge, const VectorXd& reference,
             const VectorXd& found) {
-  for (std::size_t p = 0; p < bridge.sensors.points.size(); ++p) {
+  for (std::size_t p = 0; p < bridge.sensors.points.size(); ++p)
     checks.push_back({name, bridge.sensors.points[p], reference[static_cast<Index>(p)], found[static_cast<Index>(p)], 1.0});
-  }
 }
 
 /// The dampers within time steps: a Maxwell unit is eliminated by the trapezoidal rule. The spring beside a dashpot is in the
@@ -110,9 +109,8 @@ std::vector<TimeCheck> check_time_integration(const BridgeInWind& bridge, const 
                                       static_cast<Index>(std::llround(config.duration_s / config.step_s)));
   MatrixXd amplitude = Gusts(bridge, set, config, event.speed_m_s, config.step_s).sample(seed).topRows(steps).transpose();
   // From nothing over the first quarter: a jump would ring in modes that no gust reaches.
-  for (Index i = 0; i < steps / 4; ++i) {
+  for (Index i = 0; i < steps / 4; ++i)
     amplitude.col(i) *= 0.5 - 0.5 * std::cos(std::numbers::pi * static_cast<double>(i) / static_cast<double>(steps / 4));
-  }
   const double omega1 = bridge.frozen_omega;
   const RayleighDamping rayleigh = RayleighDamping::with_ratio(bridge.aerodynamics.structural_damping, omega1, 5.0 * omega1);
   const std::vector<const fe::Spring*> dampers =
@@ -135,9 +133,8 @@ std::vector<TimeCheck> check_time_integration(const BridgeInWind& bridge, const 
   reduced.mass = MatrixXd::Identity(structure.size(), structure.size());
   reduced.stiffness = structure.omega_rad_s.cwiseAbs2().asDiagonal();
   reduced.damping = structure.viscous + rayleigh.mass_part * reduced.mass + rayleigh.stiffness_part * reduced.stiffness;
-  for (const aero::MaxwellUnit& unit : structure.maxwell) {
+  for (const aero::MaxwellUnit& unit : structure.maxwell)
     transient::add_maxwell(reduced, unit.direction, unit.stiffness_N_m, unit.damping_N_s_m);
-  }
   const MatrixXd force = load * amplitude;
   const transient::History history = transient::Newmark(reduced, config.step_s).run(force);
   const MatrixXd short_record = points * history.acceleration.topRows(points.cols());

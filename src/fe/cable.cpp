@@ -190,10 +190,9 @@ StayChains with_stay_chains(const Model& model, const PrestressState& state, int
       pull_of_added.push_back(pull);
     }
   }
-  for (const std::string& name : names) {
+  for (const std::string& name : names)
     if (!out.nodes.contains(name))
       throw InputError({model.source, 0, "stays"}, "'" + name + "' is no stay of the model", "name stays such as NE8");
-  }
   const Eigen::Index n_before = state.stay_pull_N.size(), n_added = std::ssize(added);
   out.model.elements.insert(out.model.elements.end(), added.begin(), added.end());
   out.state.stay_pull_N.conservativeResize(n_before + n_added);

@@ -135,9 +135,8 @@ std::vector<AmplitudePoint> decay_by_amplitude(const Eigen::VectorXcd& coordinat
     const double high = top * std::pow(ratio, band), low = top * std::pow(ratio, band + 1);
     // A decay passes each level once: from the last sample above the upper one to the first below the lower one.
     Index from = begin, to = end;
-    for (Index t = begin; t < end; ++t) {
+    for (Index t = begin; t < end; ++t)
       if (envelope[t] > high) from = t;
-    }
     for (Index t = from + 1; t < end; ++t) {
       if (envelope[t] < low) {
         to = t;

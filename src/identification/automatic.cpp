@@ -42,10 +42,9 @@ std::vector<double> distances_to_smaller_order(const std::vector<DiagramPole>& d
   for (std::size_t i = 0; i < diagram.size(); ++i) of_order[diagram[i].pole.order].push_back(i);
   std::vector<double> nearest(diagram.size(), std::numeric_limits<double>::infinity());
   for (std::size_t k = 1; k < orders.size(); ++k) {
-    for (const std::size_t i : of_order[orders[k]]) {
+    for (const std::size_t i : of_order[orders[k]])
       for (const std::size_t j : of_order[orders[k - 1]])
         nearest[i] = std::min(nearest[i], distance(diagram[i].pole, diagram[j].pole));
-    }
   }
   return nearest;
 }
@@ -140,10 +139,9 @@ Members with_neighbours(const std::vector<DiagramPole>& diagram, const Members& 
   std::set<int> present;
   for (const std::size_t i : group) present.insert(diagram[i].pole.order);
   Members members = group;
-  for (std::size_t i = 0; i < diagram.size(); ++i) {
+  for (std::size_t i = 0; i < diagram.size(); ++i)
     if (!claimed[i] && !present.contains(diagram[i].pole.order) && distance(diagram[i].pole, diagram[middle].pole) < reach)
       members.push_back(i);
-  }
   return members;
 }
 
@@ -159,9 +157,8 @@ bool goes_on(const std::vector<DiagramPole>& diagram, const std::vector<int>& or
   if (next == orders.end() || first_order(diagram, other) != *next) return false;
   const auto to_last = [&](std::size_t i) { return distance(diagram[i].pole, last.pole); };
   const std::size_t first = other.members.front();
-  for (std::size_t i = 0; i < diagram.size(); ++i) {
+  for (std::size_t i = 0; i < diagram.size(); ++i)
     if (diagram[i].pole.order == *next && to_last(i) < to_last(first)) return false;
-  }
   return to_last(first) < cut;
 }
 
@@ -289,9 +286,8 @@ std::vector<Cluster> automatic_clusters(std::vector<DiagramPole>& diagram, const
   const double cut = std::clamp(quantile, rule.smallest_cut, rule.largest_cut);
 
   std::vector<Members> groups;
-  for (const Members& set : connected(diagram, candidates, cut)) {
+  for (const Members& set : connected(diagram, candidates, cut))
     for (Members& group : agglomerate(diagram, set, cut)) groups.push_back(std::move(group));
-  }
   // The largest first: a mode that fell apart is gathered by its larger part, and the rest is too small to count.
   std::stable_sort(groups.begin(), groups.end(), [](const Members& a, const Members& b) { return a.size() > b.size(); });
   std::vector<Cluster> clusters;
@@ -312,9 +308,8 @@ std::vector<Cluster> automatic_clusters(std::vector<DiagramPole>& diagram, const
   clusters = whole_chains(diagram, orders, clusters, cut);
   const std::vector<bool> is_mixture = mixtures(diagram, clusters, rule, kMixtureBeside);
   std::vector<Cluster> modes;
-  for (std::size_t m = 0; m < clusters.size(); ++m) {
+  for (std::size_t m = 0; m < clusters.size(); ++m)
     if (!is_mixture[m]) modes.push_back(std::move(clusters[m]));
-  }
   number_clusters(diagram, modes);
   return modes;
 }

@@ -39,9 +39,8 @@ std::vector<DiagramPole> stabilisation_diagram(const std::vector<std::vector<Pol
   std::vector<Pole> before;
   for (const std::vector<Pole>& of_order : poles) {
     std::vector<Pole> kept;
-    for (const Pole& pole : of_order) {
+    for (const Pole& pole : of_order)
       if (within(pole, limits)) kept.push_back(pole);
-    }
     for (const Pole& pole : kept) {
       diagram.push_back({pole});
       judge(diagram.back(), before, criteria);
@@ -57,9 +56,8 @@ namespace {
 
 std::vector<std::size_t> stable_poles(const std::vector<DiagramPole>& diagram) {
   std::vector<std::size_t> stable;
-  for (std::size_t i = 0; i < diagram.size(); ++i) {
+  for (std::size_t i = 0; i < diagram.size(); ++i)
     if (diagram[i].stable() && diagram[i].pole.shape.norm() > 0.0) stable.push_back(i);
-  }
   return stable;
 }
 
@@ -118,9 +116,8 @@ Cluster summarise(const std::vector<DiagramPole>& diagram, std::vector<std::size
   // Two members lie at the same distance from their median: of equals the first represents, whatever rounding says.
   constexpr double kNearer = 1.0 - 1e-9;
   std::size_t nearest = 0;
-  for (std::size_t k = 1; k < members.size(); ++k) {
+  for (std::size_t k = 1; k < members.size(); ++k)
     if (distance(k) < kNearer * distance(nearest)) nearest = k;
-  }
   cluster.representative = members[nearest];
   const Eigen::VectorXcd& reference = diagram[cluster.representative].pole.shape;
   // Component by component, so that one order at which the pole has split in two does not count.
@@ -164,9 +161,8 @@ std::size_t possible_orders(const std::vector<DiagramPole>& diagram, const std::
 
 void number_clusters(std::vector<DiagramPole>& diagram, std::vector<Cluster>& clusters) {
   std::ranges::sort(clusters, {}, &Cluster::frequency_Hz);
-  for (std::size_t m = 0; m < clusters.size(); ++m) {
+  for (std::size_t m = 0; m < clusters.size(); ++m)
     for (const std::size_t i : clusters[m].members) diagram[i].mode = static_cast<int>(m);
-  }
 }
 
 std::vector<Cluster> identify_clusters(std::vector<DiagramPole>& diagram, const std::vector<int>& orders,

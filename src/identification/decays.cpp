@@ -19,10 +19,9 @@ namespace {
 double common_mac(const Eigen::VectorXcd& a, const std::vector<records::CampaignChannel>& a_channels, const Eigen::VectorXcd& b,
                   const std::vector<records::CampaignChannel>& b_channels) {
   Eigen::VectorXcd same = Eigen::VectorXcd::Constant(a.size(), std::numeric_limits<double>::quiet_NaN());  // b at a's
-  for (std::size_t i = 0; i < a_channels.size(); ++i) {
+  for (std::size_t i = 0; i < a_channels.size(); ++i)
     for (std::size_t j = 0; j < b_channels.size(); ++j)
       if (a_channels[i].name == b_channels[j].name) same[static_cast<Index>(i)] = b[static_cast<Index>(j)];
-  }
   return known_mac(a, same);
 }
 
@@ -78,9 +77,8 @@ Index decaying_samples(const Eigen::MatrixXd& decay) {
   if (window < 2) return energy.size();
   const double rest = energy.tail(energy.size() / 10).mean();
   Index end = 0;
-  for (Index w = 0; w < kWindows; ++w) {
+  for (Index w = 0; w < kWindows; ++w)
     if (energy.segment(w * window, window).mean() > kAboveTheRest * rest) end = (w + 1) * window;
-  }
   return end == 0 || 10 * end > 9 * energy.size() ? energy.size() : end;
 }
 
@@ -204,9 +202,8 @@ std::vector<DecayResult> identify_free_decays(const std::vector<Conditioned>& re
     to_physical_shapes(result.found, conditioned.channels, scale);
     take_choices(result.found, config.choices, conditioned, scale);
     const ConditionResult* ambient = condition_named(results, conditioned.condition);
-    for (std::size_t i = 0; i < whole.size(); ++i) {
+    for (std::size_t i = 0; i < whole.size(); ++i)
       read_by_amplitude(result, whole[i], conditioned.rate_Hz, conditioned.files[i], config, ambient);
-    }
     decays.push_back(std::move(result));
   }
   return decays;

@@ -41,9 +41,8 @@ Eigen::MatrixXd block_hankel(const std::vector<Eigen::MatrixXd>& decays, Index b
   for (Index d = 0; d < n; ++d) {
     const Eigen::MatrixXd& y = decays[static_cast<std::size_t>(d)];
     TWINDECK_ASSERT(y.cols() == l && y.rows() >= block_rows + q - 1);
-    for (Index j = 0; j < q; ++j) {
+    for (Index j = 0; j < q; ++j)
       for (Index i = 0; i < block_rows; ++i) hankel.block(i * l, j * n + d, l, 1) = y.row(i + j).transpose();
-    }
   }
   return hankel;
 }

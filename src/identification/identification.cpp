@@ -39,10 +39,9 @@ std::vector<Index> used_columns(const records::Campaign& campaign, const records
                                 const IdentificationSettings& config) {
   require_known(config.exclude, record.channels, "exclude");
   std::vector<Index> columns;
-  for (std::size_t c = 0; c < record.channels.size(); ++c) {
+  for (std::size_t c = 0; c < record.channels.size(); ++c)
     if (!campaign.channel(record.channels[c]).is_input && !listed(config.exclude, record.channels[c]))
       columns.push_back(static_cast<Index>(c));
-  }
   if (columns.empty() && config.exclude.empty()) {
     throw InputError({(campaign.folder / "channels.csv").string(), 0, "role"}, "no channel of the record is a response",
                      "give one at least the role response");
@@ -62,10 +61,9 @@ std::vector<Index> used_columns(const records::Campaign& campaign, const records
 std::vector<Index> inputs_of(const records::Campaign& campaign, const records::CampaignRecord& record,
                              const IdentificationSettings& config) {
   std::vector<Index> columns;
-  for (std::size_t c = 0; c < record.channels.size(); ++c) {
+  for (std::size_t c = 0; c < record.channels.size(); ++c)
     if (campaign.channel(record.channels[c]).is_input && !listed(config.exclude, record.channels[c]))
       columns.push_back(static_cast<Index>(c));
-  }
   return columns;
 }
 
@@ -220,9 +218,8 @@ Conditioned condition_records(const records::Campaign& campaign, const records::
   for (;;) {
     try {
       Conditioned conditioned = condition_with(campaign, group, without);
-      for (ChannelQuality& q : conditioned.quality) {
+      for (ChannelQuality& q : conditioned.quality)
         if (reasons.contains(q.channel)) q.left_out = reasons.at(q.channel);
-      }
       for (const auto& [name, reason] : reasons)
         conditioned.warnings.push_back(fmt::format("setup {}: channel {} is left out: {}", conditioned.setup, name, reason));
       return conditioned;
@@ -296,9 +293,8 @@ namespace {
 Identification identify_ambient(const std::vector<Samples>& scaled, const Conditioned& conditioned,
                                 const IdentificationSettings& config, const IdentifyOptions& options) {
   signal::BlockCorrelations blocks;
-  for (const Samples& record : scaled) {
+  for (const Samples& record : scaled)
     blocks.append(signal::correlations(record, conditioned.references, 2 * config.block_rows, config.blocks));
-  }
   return config.method == "data" ? identify_from_data(scaled, conditioned.references, blocks, conditioned.rate_Hz, options)
                                  : identify(blocks, conditioned.rate_Hz, options);
 }

@@ -110,9 +110,8 @@ void keep_modes(Identification& result, const std::vector<bool>& stays) {
   }
   result.modes.resize(kept);
   result.deviations.resize(std::min(result.deviations.size(), kept));
-  for (DiagramPole& pole : result.diagram) {
+  for (DiagramPole& pole : result.diagram)
     if (pole.mode >= 0) pole.mode = renumbered[static_cast<std::size_t>(pole.mode)];
-  }
 }
 
 void drop_undetermined(Identification& result, const IdentifyOptions& options, double seconds) {
@@ -189,9 +188,8 @@ void keep_well_known(Identification& result, const ShiftModels& models, const Po
     }
     const auto well_known = [&](double most) {
       std::vector<std::size_t> kept;
-      for (std::size_t k = 0; k < deviations.size(); ++k) {
+      for (std::size_t k = 0; k < deviations.size(); ++k)
         if (deviations[k] <= most) kept.push_back(mode.members[k]);
-      }
       return kept;
     };
     std::vector<std::size_t> kept = well_known(largest_well_known(deviations));
@@ -262,11 +260,9 @@ void mark_periodic(Identification& result, const std::vector<Samples>& records, 
 }
 
 void drop_lines_of_others(const std::vector<Identification*>& setups, const PeriodicRule& rule) {
-  for (Identification* setup : setups) {
-    for (const Identification* other : setups) {
+  for (Identification* setup : setups)
+    for (const Identification* other : setups)
       if (other != setup) drop_lines(*setup, other->periodic, rule);
-    }
-  }
 }
 
 std::vector<int> IdentifyOptions::orders() const {

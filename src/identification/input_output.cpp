@@ -27,13 +27,11 @@ struct Sizes {
 std::vector<Index> ordering(const Sizes& size) {
   std::vector<Index> order;
   const Index past = size.all() * size.block_rows;
-  for (Index i = 0; i < size.block_rows; ++i) {
+  for (Index i = 0; i < size.block_rows; ++i)
     for (Index c = 0; c < size.inputs; ++c) order.push_back(past + i * size.all() + c);
-  }
   for (Index k = 0; k < past; ++k) order.push_back(k);
-  for (Index i = 0; i < size.block_rows; ++i) {
+  for (Index i = 0; i < size.block_rows; ++i)
     for (Index c = size.inputs; c < size.all(); ++c) order.push_back(past + i * size.all() + c);
-  }
   return order;
 }
 

@@ -67,9 +67,8 @@ double resolution(const Eigen::Ref<const Eigen::VectorXd>& x) {
   std::copy_if(x.begin(), x.end(), std::back_inserter(values), [](double value) { return std::isfinite(value); });
   std::sort(values.begin(), values.end());
   double step = none;
-  for (std::size_t k = 1; k < values.size(); ++k) {
+  for (std::size_t k = 1; k < values.size(); ++k)
     if (values[k] > values[k - 1]) step = std::min(step, values[k] - values[k - 1]);
-  }
   const auto off = [&](double value) { return std::abs(std::remainder((value - values.front()) / step, 1.0)) > whole; };
   return std::any_of(values.begin(), values.end(), off) ? none : step;
 }
@@ -86,18 +85,16 @@ std::optional<Copy> copy_of(const Eigen::Ref<const Eigen::VectorXd>& a, const Ei
   const auto [low, high] = at;
   const double factor = (b[high] - b[low]) / (a[high] - a[low]), offset = b[low] - factor * a[low];
   const auto follows = [&, bottom = low](double apart) {
-    for (Index t = 0; t < a.size(); ++t) {
+    for (Index t = 0; t < a.size(); ++t)
       if (!(std::abs(b[t] - b[bottom] - factor * (a[t] - a[bottom])) <= apart) && !(std::isnan(a[t]) && std::isnan(b[t])))
         return false;
-    }
     return true;
   };
   if (!follows(kCopy * rms_b)) return {};
   const double largest = 2.0 * std::max(std::abs(b[high]), std::abs(b[low])) + std::abs(offset);
   double within = kRoundingOfGain * largest;
-  for (const double resolved : {resolution(b) + std::abs(factor) * resolution(a), kFiveDigits * largest}) {
+  for (const double resolved : {resolution(b) + std::abs(factor) * resolution(a), kFiveDigits * largest})
     if (resolved <= kCopy * rms_b) within = std::max(within, resolved);
-  }
   if (!follows(within)) return {};
   return Copy{factor, offset};
 }

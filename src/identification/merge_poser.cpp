@@ -192,9 +192,8 @@ std::vector<std::complex<double>> scales(const std::vector<SetupModes>& setups, 
     return factors;
   }
   std::vector<Index> moving;
-  for (Index k = 0; k < n; ++k) {
+  for (Index k = 0; k < n; ++k)
     if (signal[k] >= kLeastSignal) moving.push_back(k);
-  }
   Eigen::MatrixXcd unit = shapes(Eigen::all, moving);
   for (Index k = 0; k < unit.cols(); ++k) unit.col(k) /= unit.col(k).norm();
   const Eigen::VectorXcd common = Eigen::JacobiSVD<Eigen::MatrixXcd>(unit, Eigen::ComputeThinU).matrixU().col(0);
@@ -225,9 +224,8 @@ void merge_shapes(const std::vector<SetupModes>& setups, const std::vector<Candi
       weight[channel] += w;
     }
   }
-  for (Index i = 0; i < n_channels; ++i) {
+  for (Index i = 0; i < n_channels; ++i)
     if (weight[i] > 0.0) shape[i] /= weight[i];
-  }
   const double norm = std::max(shape.norm(), 1e-300);
   merged.shape = normalised_shape(shape);
   // The deviations turn with the shape: by the setup's factor, and by the phase that the normalised shape has been given.
@@ -247,9 +245,8 @@ void merge_shapes(const std::vector<SetupModes>& setups, const std::vector<Candi
   }
   merged.deviation.shape_real = (real.cwiseSqrt().array() / weight.array().max(1e-300) / norm).matrix();
   merged.deviation.shape_imag = (imag.cwiseSqrt().array() / weight.array().max(1e-300) / norm).matrix();
-  for (Index i = 0; i < n_channels; ++i) {
+  for (Index i = 0; i < n_channels; ++i)
     if (weight[i] == 0.0) merged.shape[i] = std::complex<double>(nan, nan);
-  }
 }
 
 }  // namespace

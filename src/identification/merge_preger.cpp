@@ -25,9 +25,8 @@ namespace {
 Eigen::MatrixXd rows_of(const Eigen::MatrixXd& block_matrix, Index n_outputs, const std::vector<Index>& outputs) {
   const Index p = block_matrix.rows() / n_outputs, n = static_cast<Index>(outputs.size());
   Eigen::MatrixXd rows(p * n, block_matrix.cols());
-  for (Index i = 0; i < p; ++i) {
+  for (Index i = 0; i < p; ++i)
     for (Index k = 0; k < n; ++k) rows.row(i * n + k) = block_matrix.row(i * n_outputs + outputs[static_cast<std::size_t>(k)]);
-  }
   return rows;
 }
 

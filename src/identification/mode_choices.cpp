@@ -87,9 +87,8 @@ void take_choices(Identification& found, const std::vector<ModeChoice>& choices,
     if (!choice.keep && mode >= 0) stays[static_cast<std::size_t>(mode)] = false;
   }
   keep_modes(found, stays);
-  for (const std::size_t pole : picked) {
+  for (const std::size_t pole : picked)
     if (found.diagram[pole].mode < 0) add_mode(found, pole, conditioned, scale);
-  }
 }
 
 void require_poles(const std::vector<ModeChoice>& choices, const std::vector<ConditionResult>& results) {

@@ -27,9 +27,8 @@ std::vector<PeriodicLine> undamped_poles(const std::vector<std::vector<Pole>>& p
   std::sort(undamped.begin(), undamped.end(), [](const Pole* p, const Pole* q) { return p->frequency_Hz < q->frequency_Hz; });
   std::vector<PeriodicLine> lines;
   for (std::size_t first = 0, end = 0; first < undamped.size(); first = end) {
-    for (end = first + 1; end < undamped.size(); ++end) {
+    for (end = first + 1; end < undamped.size(); ++end)
       if (undamped[end]->frequency_Hz > (1.0 + rule.largest_spread) * undamped[end - 1]->frequency_Hz) break;
-    }
     std::set<int> orders;
     std::vector<double> frequency, damping;
     const Pole* highest = undamped[first];
@@ -205,10 +204,9 @@ std::vector<PeriodicLine> without_lines(std::vector<Samples>& records, const std
     for (int k = 2; k * line.frequency_Hz <= highest_Hz; ++k) look_at(k);
   }
   std::ranges::sort(all, {}, &PeriodicLine::frequency_Hz);
-  for (PeriodicLine& line : all) {
+  for (PeriodicLine& line : all)
     for (const PeriodicLine& base : all)
       line.multiple = std::max(line.multiple, multiple_of(line.frequency_Hz, base.frequency_Hz, rule.multiple));
-  }
   return all;
 }
 

@@ -21,10 +21,9 @@ std::uint64_t mixed(std::uint64_t hash, std::uint64_t word) {  // the multiplier
 
 std::vector<std::uint64_t> hashes_of(const Samples& raw) {
   std::vector<std::uint64_t> rows(static_cast<std::size_t>(raw.rows()), 1);
-  for (Index c = 0; c < raw.cols(); ++c) {
+  for (Index c = 0; c < raw.cols(); ++c)
     for (std::size_t t = 0; t < rows.size(); ++t)
       rows[t] = mixed(rows[t], std::bit_cast<std::uint64_t>(raw(static_cast<Index>(t), c)));
-  }
   return rows;
 }
 

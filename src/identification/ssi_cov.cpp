@@ -16,10 +16,9 @@ Eigen::MatrixXd block_toeplitz(const std::vector<Eigen::MatrixXd>& lags, Index b
   TWINDECK_ASSERT(static_cast<Index>(lags.size()) >= 2 * block_rows);
   const Index l = lags.front().rows(), r = lags.front().cols();
   Eigen::MatrixXd toeplitz(l * block_rows, r * block_rows);
-  for (Index i = 0; i < block_rows; ++i) {
+  for (Index i = 0; i < block_rows; ++i)
     for (Index j = 0; j < block_rows; ++j)
       toeplitz.block(i * l, j * r, l, r) = lags[static_cast<std::size_t>(block_rows + i - j)];
-  }
   return toeplitz;
 }
 

@@ -40,9 +40,8 @@ struct Side {
 
 void set_first_column(Eigen::MatrixXd& gram, Index row, Index column, const std::vector<Eigen::MatrixXd>& lags,
                       Index first_lag) {
-  for (std::size_t k = static_cast<std::size_t>(first_lag), i = 0; k < lags.size(); ++k, ++i) {
+  for (std::size_t k = static_cast<std::size_t>(first_lag), i = 0; k < lags.size(); ++k, ++i)
     gram.block(row + static_cast<Index>(i) * lags[k].rows(), column, lags[k].rows(), lags[k].cols()) = lags[k];
-  }
 }
 
 /// G_{i,j} = G_{i-1,j-1} + x_{i-1+n} y_{j-1+n}' - x_{i-1} y_{j-1}' for i, j >= 1; of a symmetric part the lower half.

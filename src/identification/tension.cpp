@@ -53,9 +53,8 @@ std::vector<Share> shares_of(const std::vector<Explained>& numberings) {
   const auto log_share = [](const Explained& e, const StayPart& part) {
     return part.log_weight + e.log_probability - e.posterior.log_evidence;
   };
-  for (const Explained& e : numberings) {
+  for (const Explained& e : numberings)
     for (const StayPart& part : e.posterior.parts) most = std::max(most, log_share(e, part));
-  }
   std::vector<Share> shares;
   for (const Explained& e : numberings) {
     for (const StayPart& part : e.posterior.parts) {

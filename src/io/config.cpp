@@ -19,9 +19,8 @@ using Fields = std::vector<std::shared_ptr<FieldTable::Field>>;
 /// tables
 FieldTable::Field& bind_key(Fields& fields, const std::string& key, const std::string& type, const std::string& meaning,
                             std::function<void(const TomlValue&, const Place&)> read, std::function<std::string()> write) {
-  for (const auto& field : fields) {
+  for (const auto& field : fields)
     if (field->key == key) throw InternalError("configuration key '" + key + "' is bound twice");
-  }
   auto field = std::make_shared<FieldTable::Field>();
   field->key = key;
   field->type = type;
@@ -36,9 +35,8 @@ FieldTable::Field& bind_key(Fields& fields, const std::string& key, const std::s
 /// "> 0", "in [0, 1]", "in ]0, 1]" or "".
 std::string range_text(const Range& range) {
   const bool low = std::isfinite(range.lower), high = std::isfinite(range.upper);
-  if (low && high) {
+  if (low && high)
     return fmt::format("in {}{}, {}]", range.open_lower ? "]" : "[", toml_number(range.lower), toml_number(range.upper));
-  }
   if (low) return (range.open_lower ? "> " : ">= ") + toml_number(range.lower);
   if (high) return "<= " + toml_number(range.upper);
   return "";
@@ -66,9 +64,8 @@ double read_number(const TomlValue& node, const std::string& unit, const Range& 
     throw InputError(place, "is " + shown(node) + converted + ", expected a value " + range_text(range) + in_unit,
                      "choose a value in that range");
   }
-  if (std::abs(value) > largest_number) {
+  if (std::abs(value) > largest_number)
     throw InputError(place, "is " + shown(node) + ", larger than any quantity of a structure", "correct the value or its unit");
-  }
   return value;
 }
 
@@ -131,9 +128,8 @@ FieldTable& FieldTable::integer(const std::string& key, long& target, Range rang
       fields_, key, "whole number", meaning,
       [&target, range](const TomlValue& node, const Place& place) {
         const auto* whole = node.as<long>();
-        if (whole == nullptr) {
+        if (whole == nullptr)
           throw InputError(place, "is " + shown(node) + ", expected a whole number", "write it without point, quotes or unit");
-        }
         static_cast<void>(read_number(node, "", range, place));  // checks the range; a double does not hold every 64-bit number
         target = *whole;
       },

@@ -27,15 +27,13 @@ std::string meant_by(const std::string& key, const std::vector<std::string>& kno
   const std::string word = last_part(key);
   const std::string table = key.substr(0, key.size() - word.size());
   std::vector<std::string> siblings;
-  for (const std::string& name : known) {
+  for (const std::string& name : known)
     if (name.starts_with(table) && name.find('.', table.size()) == std::string::npos)
       siblings.push_back(name.substr(table.size()));
-  }
   if (const std::string nearest = nearest_name(word, siblings); !nearest.empty()) return table + nearest;
   if (std::string nearest = nearest_name(key, known); !nearest.empty()) return nearest;
-  for (const std::string& name : known) {
+  for (const std::string& name : known)
     if (last_part(name) == word) return name;
-  }
   return "";
 }
 
@@ -47,9 +45,8 @@ struct Reader {
   std::vector<FieldTable::Broken> retired = {};
 
   [[nodiscard]] FieldTable::Field* find(const std::string& key) const {
-    for (const auto& field : fields) {
+    for (const auto& field : fields)
       if (field->key == key) return field.get();
-    }
     return nullptr;
   }
 
@@ -129,15 +126,13 @@ struct Reader {
 
 void Reader::elements(FieldTable::Field& field, const TomlValue& node, const Place& place) const {
   const auto* array = node.as<TomlValue::Array>();
-  if (array == nullptr) {
+  if (array == nullptr)
     throw InputError(place, "is " + shown(node) + ", expected an array of tables", "begin each with [[" + field.key + "]]");
-  }
   std::map<std::string, long> lines;
   for (const TomlValue& item : *array) {
     const auto* values = item.as<TomlValue::Table>();
-    if (values == nullptr) {
+    if (values == nullptr)
       throw InputError(place, "holds " + shown(item) + ", expected tables only", "begin each with [[" + field.key + "]]");
-    }
     const FieldTable element = field.add();
     const Reader reader{FieldAccess::fields(element), file,
                         above + field.key + "[" + std::to_string(field.elements.size()) + "]."};
@@ -171,9 +166,8 @@ void FieldTable::load(const fs::path& file) {
 
 void FieldTable::set(const std::string& key_equals_value) {
   const std::size_t equals = key_equals_value.find('=');
-  if (equals == std::string::npos || equals == 0) {
+  if (equals == std::string::npos || equals == 0)
     throw InputError({"--set", 0, ""}, "got '" + key_equals_value + "', expected key=value", "write for example --set key=1.5");
-  }
   const std::string key = key_equals_value.substr(0, equals);
   const std::string value = key_equals_value.substr(equals + 1);
   const Reader reader{fields_, "--set", "", retired_};

@@ -41,9 +41,7 @@ std::string FieldTable::describe(const std::string& key) const {
   for (const auto& field : fields_) {
     known.push_back(field->key);
     if (!key.empty() && field->key != key && !key.starts_with(field->key + ".")) continue;
-    if (field->add && key.starts_with(field->key + ".")) {
-      return field->add().describe(key.substr(field->key.size() + 1));
-    }
+    if (field->add && key.starts_with(field->key + ".")) return field->add().describe(key.substr(field->key.size() + 1));
     if (field->key != key && !key.empty()) continue;
     text += field->key + ": " + field->meaning + "\n    " + field->type;
     if (!field->unit.empty()) text += fmt::format(" [{}]", field->unit);
@@ -60,9 +58,7 @@ std::string FieldTable::describe(const std::string& key) const {
     }
     text += field->required ? ", required\n" : ", default " + field->default_value + "\n";
   }
-  if (text.empty() && !key.empty()) {
-    refuse_unknown_key("--describe", 0, "", key, known);
-  }
+  if (text.empty() && !key.empty()) refuse_unknown_key("--describe", 0, "", key, known);
   return text;
 }
 

@@ -65,9 +65,8 @@ class RecordReader {
         } else {
           ++at_;
           while (at_ < text_.size() && (text_[at_] == ' ' || text_[at_] == '\t')) ++at_;
-          if (at_ < text_.size() && text_.find_first_of(",\r\n", at_) != at_) {
+          if (at_ < text_.size() && text_.find_first_of(",\r\n", at_) != at_)
             throw InputError({file_, line_, ""}, "has text after a closing quote", "double a quote inside a quoted cell: \"\"");
-          }
           return cell;
         }
       } else if (text_[at_] == '\n') {
@@ -107,20 +106,17 @@ CsvTable CsvTable::read(const std::filesystem::path& asked, const std::vector<st
   table.file_ = file;
   RecordReader reader(text_of_file(file), file.string());
   long line = 1;
-  if (!reader.next(table.columns_, line)) {
+  if (!reader.next(table.columns_, line))
     throw InputError({file.string(), 1, ""}, "is empty, expected a header row", "start the file with: " + joined(required));
-  }
-  if (table.columns_.size() == 1 && table.columns_.front().find(';') != std::string::npos) {
+  if (table.columns_.size() == 1 && table.columns_.front().find(';') != std::string::npos)
     throw InputError({file.string(), line, ""}, "is separated by semicolons", "separate the columns by commas");
-  }
   std::vector<std::string> known = required;
   known.insert(known.end(), optional.begin(), optional.end());
   const std::set<std::string> known_set(known.begin(), known.end());
   for (std::size_t i = 0; i < table.columns_.size(); ++i) {
     const std::string& column = table.columns_[i];
-    if (!table.index_.emplace(column, i).second) {
+    if (!table.index_.emplace(column, i).second)
       throw InputError({file.string(), line, column}, "column stands twice", "remove or rename one of them");
-    }
     if (!allow_other && !known_set.contains(column)) {
       const std::string nearest = nearest_name(column, known);
       throw InputError(
@@ -159,9 +155,8 @@ std::optional<double> CsvTable::number_if(std::size_t row, const std::string& co
   const char* end = cell.data() + cell.size();
   double value = 0.0;
   const auto [stop, error] = std::from_chars(begin, end, value);
-  if (error == std::errc::result_out_of_range) {
+  if (error == std::errc::result_out_of_range)
     fail(row, column, "is \"" + cell + "\", beyond what a number can hold", "give a number between 1e-300 and 1e60");
-  }
   if (error != std::errc{} || stop != end) {
     fail(row, column, "is \"" + cell + "\", expected a number",
          "write it like 12.5 or 1.25e1; the unit stands in the column name");
@@ -186,9 +181,8 @@ double CsvTable::number_or(std::size_t row, const std::string& column, double fa
 std::optional<long> CsvTable::integer_if(std::size_t row, const std::string& column) const {
   const std::optional<double> value = number_if(row, column);
   if (!value) return std::nullopt;
-  if (*value != std::floor(*value) || std::abs(*value) > 9e15) {
+  if (*value != std::floor(*value) || std::abs(*value) > 9e15)
     fail(row, column, "is \"" + text(row, column) + "\", expected a whole number", "write it without a fraction");
-  }
   return static_cast<long>(*value);
 }
 
@@ -227,9 +221,7 @@ void CsvWriter::row(const std::vector<Cell>& cells) {
 
 void CsvWriter::save(const std::filesystem::path& file) const {
   std::string header;
-  for (const std::string& column : columns_) {
-    header += (header.empty() ? "" : ",") + quoted_where_needed(column, false);
-  }
+  for (const std::string& column : columns_) header += (header.empty() ? "" : ",") + quoted_where_needed(column, false);
   write_file_atomically(file, header + "\n" + body_);
 }
 

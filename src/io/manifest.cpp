@@ -66,9 +66,8 @@ void check_file(const Manifest& manifest, const fs::path& folder, const fs::path
   const auto listed = manifest.outputs.find(name);
   const std::string rerun =
       "run " + manifest.step + " again, or copy the folder without its manifest.json to use it as your own data";
-  if (listed == manifest.outputs.end()) {
+  if (listed == manifest.outputs.end())
     throw InputError({file.string(), 0, ""}, "is not among the outputs in the manifest of " + manifest.step, rerun);
-  }
   if (listed->second != sha256(file)) {
     throw InputError({file.string(), 0, ""},
                      "was changed after " + manifest.step + " wrote it (its SHA-256 is not the manifest's)", rerun);
@@ -117,9 +116,8 @@ void write_manifest(const Manifest& manifest, const fs::path& folder) {
   json["inputs"] = manifest.inputs;
   json["outputs"] = manifest.outputs;
   json["columns"] = nlohmann::ordered_json::object();
-  for (const auto& [name, hash] : manifest.outputs) {
+  for (const auto& [name, hash] : manifest.outputs)
     if (name.ends_with(".csv")) json["columns"][name] = header_of(folder / name);
-  }
   const auto replace = nlohmann::ordered_json::error_handler_t::replace;  // a path that is no UTF-8 must not stop the run
   write_file_atomically(folder / "manifest.json", json.dump(2, ' ', false, replace) + "\n");
 }
@@ -154,9 +152,8 @@ void check_against_manifest(const fs::path& path) {
   if (!folder) return;
   const Manifest manifest = read_manifest(*folder);
   if (!is_folder) return check_file(manifest, *folder, path);
-  for (const auto& entry : fs::recursive_directory_iterator(path)) {
+  for (const auto& entry : fs::recursive_directory_iterator(path))
     if (entry.is_regular_file()) check_file(manifest, *folder, entry.path());
-  }
   const std::string below = fs::relative(fs::weakly_canonical(path), *folder).generic_string();
   for (const auto& [name, hash] : manifest.outputs) {
     if ((below == "." || name.starts_with(below + "/")) && !fs::exists(*folder / name)) {

@@ -117,9 +117,8 @@ OpenArray open_array(const fs::path& file) {
   array.header = parse(header_text(array.in, file), file);
   const Header& header = array.header;
   const auto rows = static_cast<std::uintmax_t>(header.rows), columns = static_cast<std::uintmax_t>(header.columns);
-  if (rows == 0 || columns == 0) {
+  if (rows == 0 || columns == 0)
     refuse(file, fmt::format("holds an array of {} x {}, without any value", rows, columns), "write the file again");
-  }
   const std::uintmax_t found = bytes - static_cast<std::uintmax_t>(array.in.tellg());
   if (columns > found / header.item_size / rows || rows * columns * header.item_size != found) {
     refuse(file,
@@ -183,9 +182,8 @@ std::pair<Index, Index> visit_npy(const fs::path& file, const BlockVisitor& visi
     const Index n = std::min(chunk, header.rows - row);
     read(n * header.columns);
     block.resize(n, header.columns);
-    for (Index k = 0; k < n; ++k) {
+    for (Index k = 0; k < n; ++k)
       for (Index c = 0; c < header.columns; ++c) block(k, c) = value(k * header.columns + c);
-    }
     visit(row, 0, block);
   }
   return {header.rows, header.columns};

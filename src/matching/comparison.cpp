@@ -71,9 +71,8 @@ Pairing pair_at_sensors(const Measured& measured, const dynamics::LoadedModel& m
   const Eigen::MatrixXcd phi_n = shapes_at_sensors(measured, model, modes, sensor_tolerance_m);
   // A mode that stands still at every sensor has no MAC; it can't be anybody's partner and takes part with zeros.
   std::vector<Index> moving;
-  for (Index j = 0; j < phi_n.cols(); ++j) {
+  for (Index j = 0; j < phi_n.cols(); ++j)
     if (phi_n.col(j).norm() > 1e-9 * modes.shapes.col(j).cwiseAbs().maxCoeff()) moving.push_back(j);
-  }
   Pairing pairing;
   pairing.method = "mac";
   pairing.shapes = phi_n;

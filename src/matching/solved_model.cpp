@@ -19,10 +19,9 @@ using Eigen::MatrixXd;
 
 bool same_dofs(const fe::ParametricSystem& a, const fe::ParametricSystem& b) {
   if (a.dofs.size() != b.dofs.size()) return false;
-  for (std::size_t i = 0; i < a.dofs.size(); ++i) {
+  for (std::size_t i = 0; i < a.dofs.size(); ++i)
     if (a.dofs[i].node != b.dofs[i].node || a.dofs[i].direction != b.dofs[i].direction || a.dofs[i].x_m != b.dofs[i].x_m)
       return false;
-  }
   return true;
 }
 

@@ -130,9 +130,8 @@ bool says_nothing(const Command& command) { return ignored(command.key) != nullp
 void read_over_block(Parts& parts, const Command& start) {
   const auto opens = [](const Command& c) {
     if (c.key == "*DO" || c.key == "*DOWH") return true;
-    for (std::size_t i = 0; i < c.fields.size(); ++i) {
+    for (std::size_t i = 0; i < c.fields.size(); ++i)
       if (c.key == "*IF" && c.word(i) == "THEN") return true;
-    }
     return false;
   };
   const auto refuse = [&](const Command& c) {

@@ -87,9 +87,8 @@ void Builder::add_nodes() {
     if (const long middle = m.middle(); middle != 0) used.emplace(middle, m.element.line), in_space.insert(middle);
   });
   for (const Link& link : parts.links) used.emplace(link.master, link.line), used.emplace(link.slave, link.line);
-  for (const Equation& equation : parts.equations) {
+  for (const Equation& equation : parts.equations)
     for (const Equation::Term& term : equation.terms) used.emplace(term.node, equation.at.line);
-  }
   for (const auto& [id, line] : used) {
     const auto found = parts.nodes.find(id);
     if (found == parts.nodes.end())
@@ -142,9 +141,8 @@ int Builder::material(const Member& member, long id, bool isotropic) {
 }
 
 std::string Builder::group(const Member& member, const std::string& property) const {
-  for (const Component& component : parts.components) {
+  for (const Component& component : parts.components)
     if (!component.of_nodes && component.members.contains(member.id)) return component.name;
-  }
   return lower_case(member.type().name) + "_" + property;
 }
 
@@ -177,10 +175,9 @@ void build_model(Parts& parts) {
   for_each_member(parts, [&](const Member& m) {
     if (m.type().kind == Kind::mass) add_mass(builder, m);
   });
-  for (const Component& component : parts.components) {
+  for (const Component& component : parts.components)
     if (component.of_nodes && component.members.size() == 1 && builder.has_node(*component.members.begin()))
       parts.model.monitoring_points.emplace(component.name, builder.node(*component.members.begin()));
-  }
   apply_stage(builder);
 }
 

@@ -161,16 +161,13 @@ std::array<bool, 3> moving_directions(const Builder& builder, long id) {
       std::any_of(model.links.begin(), model.links.end(),
                   [&](const fe::RigidLink& l) { return l.master == node || l.slave == node; });
   moves.fill(whole);
-  for (const fe::Spring& s : model.springs) {
-    for (std::size_t d = 0; d < 3; ++d) {
+  for (const fe::Spring& s : model.springs)
+    for (std::size_t d = 0; d < 3; ++d)
       if ((s.node == node || s.node2 == node) && !s.rotation && s.direction[static_cast<int>(d)] != 0.0) moves[d] = true;
-    }
-  }
   for (const fe::Constraint& c : model.constraints) {
     if (c.node == node && c.direction < 3) moves[static_cast<std::size_t>(c.direction)] = true;
-    for (const fe::Constraint::Term& term : c.terms) {
+    for (const fe::Constraint::Term& term : c.terms)
       if (term.node == node && term.direction < 3) moves[static_cast<std::size_t>(term.direction)] = true;
-    }
   }
   for (const fe::Support& support : model.supports) {
     for (std::size_t d = 0; d < 3; ++d) moves[d] = moves[d] && !(support.node == node && support.fixed[d]);

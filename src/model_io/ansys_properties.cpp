@@ -55,9 +55,8 @@ void read_type(Parts& parts, const Command& command) {
   definition.name = command.fields[1];
   definition.type = element_type(command.word(1));
   definition.line = command.line;
-  for (std::size_t i = 0; i < options_of_et; ++i) {
+  for (std::size_t i = 0; i < options_of_et; ++i)
     if (!command.blank(i + 2)) definition.options[static_cast<int>(i) + 1] = {command.integer(i + 2), command.line};
-  }
   parts.types[id] = definition;
 }
 
@@ -99,10 +98,9 @@ void read_changed_reals(Parts& parts, const Command& command) {
 
 void read_property(Parts& parts, const Command& command) {
   const std::string label = command.word(0);
-  for (std::size_t i = 3; is_mechanical(label) && i < command.fields.size(); ++i) {
+  for (std::size_t i = 3; is_mechanical(label) && i < command.fields.size(); ++i)
     if (command.number_or(i, 0.0) != 0.0)
       command.fail(label + " depends on temperature, which is not supported", "give it at one temperature");
-  }
   if (!is_mechanical(label)) return set_property(parts, command, label, 1, 0.0);
   set_property(parts, command, label, command.integer_or(1, 1), command.number_or(2, 0.0));
 }
@@ -114,10 +112,9 @@ void read_property_data(Parts& parts, const Command& command) {
   if (!is_mechanical(label)) return set_property(parts, command, label, 1, 0.0);
   const long material = command.integer_or(at + 1, 1), place = command.integer_or(at + 2, 1);
   const double first = place > 1 ? parts.materials[material][label].value : command.number(at + 3);
-  for (std::size_t i = at + 3; i < command.fields.size(); ++i) {
+  for (std::size_t i = at + 3; i < command.fields.size(); ++i)
     if (!command.blank(i) && command.number(i) != first)
       command.fail(label + " depends on temperature, which is not supported", "give it at one temperature");
-  }
   set_property(parts, command, label, material, first);
 }
 

@@ -259,10 +259,9 @@ CrossSection shell_section(Builder& builder, const Member& member) {
   }
   const RealSet& r = builder.reals(member);
   cross.section.thickness_m = positive(builder, member, r, 1, "thickness");
-  for (std::size_t i = 2; i <= 4; ++i) {
+  for (std::size_t i = 2; i <= 4; ++i)
     if (r.at(i) != 0.0 && r.at(i) != r.at(1))
       require_zero(builder, member, r, i, "a thickness that varies over an element", "give each element one thickness");
-  }
   if (member.is("SHELL63")) {
     require_zero(builder, member, r, 5, "an elastic foundation", "use COMBIN14 below the nodes");
     if (r.at(7) > 0.0) cross.section.bending_inertia_ratio = r.at(7);

@@ -97,9 +97,8 @@ const Component* Parts::component(const std::string& name) const {
 std::set<long> Parts::nodes_of(const Command& command, std::size_t field, std::size_t end_field) const {
   std::set<long> chosen;
   if (command.word(field) == "ALL") {
-    for (const auto& [id, node] : nodes) {
+    for (const auto& [id, node] : nodes)
       if (selected_nodes.has(id)) chosen.insert(id);
-    }
     return chosen;
   }
   if (!command.blank(field)) {
@@ -110,9 +109,8 @@ std::set<long> Parts::nodes_of(const Command& command, std::size_t field, std::s
   if (step < 1) command.fail(fmt::format("step {} is no step from node to node", step), "give 1 or more");
   if (first == last && !nodes.contains(first))
     command.fail(fmt::format("node {} is not defined", first), "define it before, or correct the number");
-  for (auto it = nodes.lower_bound(first); it != nodes.end() && it->first <= last; ++it) {
+  for (auto it = nodes.lower_bound(first); it != nodes.end() && it->first <= last; ++it)
     if ((it->first - first) % step == 0 && selected_nodes.has(it->first)) chosen.insert(it->first);
-  }
   return chosen;
 }
 
@@ -150,9 +148,8 @@ void select_nodes(Parts& parts, const Command& command) {
     found = nodes_at(parts, command);
   } else if ((command.word(1) == "NODE" || command.blank(1)) && command.blank(2)) {
     const Range range = range_of(command, 3);
-    for (const long id : everything) {
+    for (const long id : everything)
       if (holds(range, id)) found.insert(id);
-    }
   } else {
     command.fail(fmt::format("selection by '{}' is not supported", command.fields[1]),
                  "select by NODE or LOC, or write a component");
@@ -184,9 +181,8 @@ void select_elements(Parts& parts, const Command& command) {
 void select_nodes_of_elements(Parts& parts, const Command& command) {
   parts.selected_component.clear();
   std::set<long> found;
-  for (const auto& [id, element] : parts.elements) {
+  for (const auto& [id, element] : parts.elements)
     if (parts.selected_elements.has(id)) found.insert(element.nodes.begin(), element.nodes.end());
-  }
   found.erase(0);
   combine(command, parts.selected_nodes, keys_of(parts.nodes), found);
 }

@@ -129,9 +129,8 @@ class Ties {
     }
     dependent_.insert(*slave);
     fe::Constraint c{parts_.numbered(equation.at.label), slave->first, slave->second, {}};
-    for (const auto& at : order) {
+    for (const auto& at : order)
       if (at != *slave) c.terms.push_back({at.first, at.second, -sum[at] / sum[*slave]});
-    }
     parts_.add_constraint(c, equation.at);
   }
 
@@ -256,9 +255,8 @@ void read_couple(Parts& parts, const Command& command) {
   if (command.word(2) == "ALL") {
     nodes = parts.nodes_of(command, 2, 2);
   } else {
-    for (std::size_t i = 2; i < command.fields.size(); ++i) {
+    for (std::size_t i = 2; i < command.fields.size(); ++i)
       if (!command.blank(i)) nodes.insert(command.integer(i));
-    }
   }
   for (const int dof : known_dofs(command, 1)) parts.couples[set].push_back({{nodes.begin(), nodes.end()}, dof, command.line});
 }
@@ -278,9 +276,8 @@ void read_rigid_region(Parts& parts, const Command& command) {
   }
   constexpr std::size_t past_labels = 7;  // a field that the command does not have: one node, no range
   const long master = command.integer(0);
-  for (const long slave : parts.nodes_of(command, 1, past_labels)) {
+  for (const long slave : parts.nodes_of(command, 1, past_labels))
     if (slave != master) parts.links.push_back({master, slave, command.line, tied});
-  }
 }
 
 void read_equation(Parts& parts, const Command& command) {

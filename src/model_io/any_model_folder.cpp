@@ -16,9 +16,8 @@ namespace {
 
 /// Null where the table has no such key.
 const io::TomlValue* find(const io::TomlValue::Table& table, const std::string& key) {
-  for (const io::TomlEntry& entry : table) {
+  for (const io::TomlEntry& entry : table)
     if (entry.key == key) return &entry.value;
-  }
   return nullptr;
 }
 
@@ -82,9 +81,8 @@ bool is_matrix_model(const std::filesystem::path& folder) {
 long line_of(const std::filesystem::path& file, const std::string& text) {
   std::ifstream stream(file);
   std::string line;
-  for (long number = 1; std::getline(stream, line); ++number) {
+  for (long number = 1; std::getline(stream, line); ++number)
     if (line.find(text) != std::string::npos) return number;
-  }
   return 0;
 }
 

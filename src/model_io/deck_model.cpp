@@ -116,9 +116,8 @@ bool DeckModel::is_whole(const Directions& tied, int slave) const {
 
 void DeckModel::tie_at_arm(const DeckPlace& at, const std::function<std::string(int)>& name, int master, int slave,
                            const Directions& tied) {
-  for (int d = 0; d < 6; ++d) {
+  for (int d = 0; d < 6; ++d)
     if (tied[fe::slot(d)]) add_constraint(at_rigid_arm(name(d), model, master, slave, d), at);
-  }
 }
 
 std::vector<fe::Constraint::Term> DeckModel::free_terms(const std::vector<fe::Constraint::Term>& terms) const {
@@ -179,10 +178,9 @@ bool DeckModel::is_rigid_link(const std::vector<const DeckEquation*>& equations,
       if (term.node != master) return false;
       factors[fe::slot(term.direction)] -= term.factor / own->factor;
     }
-    for (int from = 0; from < 6; ++from) {
+    for (int from = 0; from < 6; ++from)
       if (std::abs(factors[fe::slot(from)] - rigid_arm_factor(arm, own->direction, from)) > rounding * (1.0 + arm.norm()))
         return false;
-    }
     tied[fe::slot(own->direction)] = true;
   }
   return is_whole(tied, slave);
@@ -243,10 +241,9 @@ void DeckModel::tie_to_mean(const DeckPlace& at, const std::function<std::string
     const double largest = mean.of_samples.row(d).cwiseAbs().maxCoeff();
     for (std::size_t i = 0; i < samples.size(); ++i) {
       const double factor = mean.of_samples(d, static_cast<Eigen::Index>(i));
-      for (int k = 0; k < 3 && std::abs(factor) > nothing * largest; ++k) {
+      for (int k = 0; k < 3 && std::abs(factor) > nothing * largest; ++k)
         if (std::abs(samples[i].direction[k]) > nothing)
           c.terms.push_back({samples[i].node, (samples[i].rotation ? 3 : 0) + k, factor * samples[i].direction[k]});
-      }
     }
     add_constraint(c, at);
   }
@@ -306,9 +303,8 @@ void DeckModel::drop_unused_nodes() {
   std::vector<int> now(model.nodes.size(), -1);
   for_each_joined_node(model, [&](int& node) { now[fe::slot(node)] = 0; });
   int kept = 0;
-  for (int& to : now) {
+  for (int& to : now)
     if (to >= 0) to = kept++;
-  }
   const std::size_t unused = now.size() - fe::slot(kept);
   if (unused == 0) return;
   notes.push_back(fmt::format("nodes that no element, link or tie uses are left out: {}", unused));
@@ -332,9 +328,8 @@ void for_each_joined_node(fe::Model& model, const std::function<void(int&)>& f) 
   };
   for (fe::Element& e : model.elements) std::for_each(e.nodes.begin(), e.nodes.end(), named);
   for (fe::Spring& s : model.springs) named(s.node), named(s.node2);
-  for (fe::MatrixElement& e : model.matrix_elements) {
+  for (fe::MatrixElement& e : model.matrix_elements)
     for (fe::MatrixElement::Dof& dof : e.dofs) named(dof.node);
-  }
   for (fe::RigidLink& link : model.links) named(link.master), named(link.slave);
   for (fe::Constraint& c : model.constraints) {
     named(c.node);
@@ -346,9 +341,8 @@ void for_each_joined_node(fe::Model& model, const std::function<void(int&)>& f) 
 void renumber_nodes(fe::Model& model, const std::vector<int>& now) {
   TWINDECK_ASSERT(now.size() == model.nodes.size());
   std::vector<fe::Node> nodes(static_cast<std::size_t>(std::count_if(now.begin(), now.end(), [](int to) { return to >= 0; })));
-  for (std::size_t i = 0; i < now.size(); ++i) {
+  for (std::size_t i = 0; i < now.size(); ++i)
     if (now[i] >= 0) nodes[static_cast<std::size_t>(now[i])] = std::move(model.nodes[i]);
-  }
   model.nodes = std::move(nodes);
   for_each_joined_node(model, [&](int& node) { node = now[static_cast<std::size_t>(node)]; });
   for (fe::Support& support : model.supports) support.node = now[static_cast<std::size_t>(support.node)];

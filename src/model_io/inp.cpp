@@ -73,9 +73,8 @@ bool is_in(const std::vector<std::string>& list, const std::string& name) {
 void refuse_unknown(const InpPlan& plan) {
   std::vector<std::string> known = silent_cards();
   known.insert(known.end(), {"BOUNDARY", "TIE", "CLOAD", "DLOAD", "DSLOAD", "TEMPERATURE", "INITIAL CONDITIONS"});
-  for (const auto& pass : passes()) {
+  for (const auto& pass : passes())
     for (const auto& [keyword, reader] : pass) known.push_back(keyword);
-  }
   std::string above;
   for (const InpReading& reading : plan.readings) {
     const InpCard& card = *reading.card;
@@ -103,12 +102,10 @@ void note_loads(InpParts& parts, const InpPlan& plan, const InpStage& stage) {
                       card->keyword, card->line));
   }
   first.clear();
-  for (const InpReading& reading : plan.readings) {
+  for (const InpReading& reading : plan.readings)
     if (is_in(noted_cards(), reading.card->keyword)) first.emplace(reading.card->keyword, reading.card->line);
-  }
-  for (const auto& [keyword, line] : first) {
+  for (const auto& [keyword, line] : first)
     parts.notes.push_back(fmt::format("*{} (line {}) does not enter stiffness or mass and is left out", keyword, line));
-  }
 }
 
 /// Supports of the step whose modes are asked for.
@@ -135,9 +132,8 @@ void attach_ties(InpParts& parts, const InpPlan& plan) {
 void name_points(InpParts& parts) {
   for (const auto& [key, set] : parts.node_sets) {
     if (set.members.size() != 1) continue;
-    if (const auto node = parts.node_position.find(set.members.front()); node != parts.node_position.end()) {
+    if (const auto node = parts.node_position.find(set.members.front()); node != parts.node_position.end())
       parts.model.monitoring_points.emplace(parts.set_name(parts.node_sets, set), node->second);
-    }
   }
 }
 
@@ -167,10 +163,9 @@ ImportedModel read_inp(const std::filesystem::path& path) {
   attach_inp_equations(parts);
   attach_ties(parts, plan);
   settle_inp_constraints(parts);
-  for (const auto& [id, element] : parts.elements) {
+  for (const auto& [id, element] : parts.elements)
     if (element.used == 0)
       element.at->fail(fmt::format("element {} has no section, spring or mass card", id), "give its set one");
-  }
   note_loads(parts, plan, stage);
   parts.drop_unused_nodes();
   for (const auto& [id, body] : parts.turned_by) {

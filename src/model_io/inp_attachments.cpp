@@ -10,10 +10,9 @@ namespace {
 /// Values of the card's data lines, without the empty line that stands for "no degree of freedom" with SPRINGA.
 std::vector<const InpLine*> filled_lines(const InpCard& card) {
   std::vector<const InpLine*> lines;
-  for (const InpLine& line : card.data) {
+  for (const InpLine& line : card.data)
     if (std::any_of(line.fields.begin(), line.fields.end(), [](const std::string& f) { return !f.empty(); }))
       lines.push_back(&line);
-  }
   return lines;
 }
 

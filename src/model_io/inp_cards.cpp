@@ -29,9 +29,8 @@ InpCard to_card(const std::string& text, const std::filesystem::path& file, long
   InpCard card;
   const std::vector<std::string> fields = split_line(text.substr(1));
   // "*END  STEP" and "*End Step" are the same word.
-  for (const char c : upper_case(fields.front())) {
+  for (const char c : upper_case(fields.front()))
     if (c != ' ' || (!card.keyword.empty() && card.keyword.back() != ' ')) card.keyword += c;
-  }
   static_cast<DeckPlace&>(card) = {&file, line, label_of(card.keyword)};
   for (std::size_t i = 1; i < fields.size(); ++i) {
     const auto equals = fields[i].find('=');

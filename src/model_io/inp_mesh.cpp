@@ -114,9 +114,8 @@ void read_inp_elements(InpParts& parts, const InpCard& card) {
     if (static_cast<int>(element.nodes.size()) > wanted) refuse_count(line, element, wanted, "check TYPE and the data line");
     if (!parts.elements.emplace(element.id, element).second)
       element.at->fail(fmt::format("element {} is defined twice", element.id), "keep one of the two");
-    for (const long id : element.nodes) {
+    for (const long id : element.nodes)
       if (turns) parts.turning.insert(parts.node(line, id));
-    }
     if (card.has("ELSET")) add_to_set(parts, parts.element_sets, card.get("ELSET"), element.id);
   }
   if (open) refuse_count(*element.at, element, wanted, "complete the data line");
@@ -195,10 +194,9 @@ long InpParts::element_id(const InpLine& line, std::size_t field) const {
 }
 
 std::string InpParts::node_name(long id) const {
-  for (const InpScope& in : scopes) {
+  for (const InpScope& in : scopes)
     if (in.node_offset > 0 && id > in.node_offset && id <= in.node_offset + in.last_node)
       return fmt::format("{} of {}", id - in.node_offset, in.name.empty() ? "the assembly" : "instance " + in.name);
-  }
   return std::to_string(id);
 }
 
@@ -223,9 +221,8 @@ const InpSet& InpParts::set(const std::map<std::string, InpSet>& sets, const Dec
 }
 
 std::vector<long> InpParts::nodes_of(const InpLine& line, std::size_t field) const {
-  if (field >= line.fields.size() || line.fields[field].empty()) {
+  if (field >= line.fields.size() || line.fields[field].empty())
     line.fail(fmt::format("field {} is missing, expected a node or a set of nodes", field + 1), "name it");
-  }
   if (is_number(line.fields[field])) return {node_id(line, field)};
   return set(node_sets, line, line.fields[field]).members;
 }

@@ -315,9 +315,8 @@ void read_beam_constants(InpParts& parts, const InpCard& card, fe::Material& mat
     card.data[0].fail("is orthotropic with several E or Poisson's ratios, which is not supported",
                       "give E and nu of an isotropic material");
   }
-  for (std::size_t i = 6; i < 9; ++i) {
+  for (std::size_t i = 6; i < 9; ++i)
     if (constants[i] <= 0.0) card.data[i / 8].fail("a shear modulus is not above 0", "give G12, G13, G23 in Pa");
-  }
   material.youngs_modulus_Pa = constants[0];
   material.poisson_ratio = 0.0;
   material.shear_modulus_Pa = constants[6];
@@ -348,9 +347,8 @@ void assign_inp_section(InpParts& parts, const InpCard& card) {
 
 void read_inp_material(InpParts& parts, const InpCard& card) {
   const std::string name = card.required("NAME");
-  if (!parts.materials.emplace(upper_case(name), static_cast<int>(parts.model.materials.size())).second) {
+  if (!parts.materials.emplace(upper_case(name), static_cast<int>(parts.model.materials.size())).second)
     card.fail(fmt::format("material '{}' is defined twice", name), "keep one of the two");
-  }
   fe::Material material;
   material.name = name;
   parts.model.materials.push_back(material);

@@ -34,14 +34,12 @@ struct TieCount {
 /// Half the greatest thickness of the shells of a surface.
 double half_thickness(const InpParts& parts, const InpSurface& surface) {
   std::set<long> shells;
-  for (const InpFacet& facet : surface.facets) {
+  for (const InpFacet& facet : surface.facets)
     if (facet.turning) shells.insert(facet.element);
-  }
   double most = 0.0;
-  for (const fe::Element& e : parts.model.elements) {
+  for (const fe::Element& e : parts.model.elements)
     if (e.type == fe::ElementType::shell && shells.contains(e.id))
       most = std::max(most, 0.5 * parts.model.sections[static_cast<std::size_t>(e.section)].thickness_m);
-  }
   return most;
 }
 

@@ -182,9 +182,8 @@ void InpWriter::bars_and_stays() {
 void InpWriter::members() {
   bars_and_stays();
   beams();
-  if (state_.axial_force_N.size() > 0 && model_.prestress.geometric_stiffness && model_.prestress.rule != fe::PullRule::none) {
+  if (state_.axial_force_N.size() > 0 && model_.prestress.geometric_stiffness && model_.prestress.rule != fe::PullRule::none)
     note("the geometric stiffness of dead load and pulls is left out: compare with prestress.geometric_stiffness = false");
-  }
 }
 
 void InpWriter::faces_and_blocks() {
@@ -219,9 +218,8 @@ void InpWriter::faces_and_blocks() {
       note("three-node shells are S3, of which CalculiX makes linear wedges: they bend too stiffly there");
     const std::string set = element_block(triangle ? "S3" : "S4", e.group.empty() ? s.name : e.group, group.second);
     elements_ += fmt::format("*SHELL SECTION, ELSET={}, MATERIAL={}\n{}\n", set, material_name, format_number(s.thickness_m));
-    if (s.bending_inertia_ratio != 1.0) {
+    if (s.bending_inertia_ratio != 1.0)
       note(fmt::format("the bending inertia ratio {} of section '{}' is left out", s.bending_inertia_ratio, s.name));
-    }
   }
 }
 

@@ -150,11 +150,9 @@ void InpWriter::links_and_supports() {
   }
   if (model_.supports.empty()) return;
   supports_ += "*BOUNDARY\n";
-  for (const fe::Support& support : model_.supports) {
-    for (std::size_t i = 0; i < 6; ++i) {
+  for (const fe::Support& support : model_.supports)
+    for (std::size_t i = 0; i < 6; ++i)
       if (support.fixed[i]) supports_ += fmt::format("{0}, {1}, {1}\n", node_id(support.node), i + 1);
-    }
-  }
 }
 
 void InpWriter::point_mass(const std::string& group, int node, double mass_kg) {
@@ -182,9 +180,8 @@ void InpWriter::springs_and_masses() {
     if (spring.damping > 0.0) note("dashpots are left out: they do not enter a frequency step");
     if (spring.stiffness <= 0.0) continue;
     int axis = -1;
-    for (int i = 0; i < 3; ++i) {
+    for (int i = 0; i < 3; ++i)
       if (std::abs(std::abs(spring.direction[i]) - 1.0) < 1e-9) axis = i;
-    }
     const std::string orientation = axis < 0 ? ", ORIENTATION=" + direction_axes(spring.direction) : "";
     const int dof = std::max(axis, 0) + (spring.rotation ? 4 : 1);
     std::vector<long> nodes = {node_id(spring.node)};

@@ -69,12 +69,10 @@ std::vector<fe::DofLabel> read_dofs(const std::filesystem::path& folder) {
     if (dof.node.empty()) table.fail(row, "node", "is empty", "name the node that the degree of freedom belongs to");
     const std::string direction = table.text(row, "direction");
     dof.direction = position_of(direction, direction_names());
-    if (dof.direction < 0) {
+    if (dof.direction < 0)
       table.fail(row, "direction", fmt::format("unknown direction '{}'", direction), "use " + one_of(direction_names()));
-    }
-    if (!seen.emplace(dof.node, dof.direction).second) {
+    if (!seen.emplace(dof.node, dof.direction).second)
       table.fail(row, "direction", fmt::format("node {} has direction {} twice", dof.node, direction), "each may appear once");
-    }
     const double unknown = std::numeric_limits<double>::quiet_NaN();
     dof.x_m = {table.number_or(row, "x_m", unknown), table.number_or(row, "y_m", unknown),
                table.number_or(row, "z_m", unknown)};
@@ -90,9 +88,8 @@ int add_parameter(const std::filesystem::path& file, const MatrixParameter& entr
   const auto refuse = [&](const std::string& problem, const std::string& mend) {
     return InputError({file.string(), line_of(file, "\"" + entry.name + "\""), "parameter " + entry.name}, problem, mend);
   };
-  if (!seen.emplace(entry.name, entry.target).second) {
+  if (!seen.emplace(entry.name, entry.target).second)
     throw refuse("appears twice with target " + entry.target, "give each parameter a name of its own");
-  }
   if (!(entry.lower <= entry.initial && entry.initial <= entry.upper)) {
     throw refuse(fmt::format("lower, initial, upper are {}, {}, {}, expected lower <= initial <= upper",
                              io::format_number(entry.lower), io::format_number(entry.initial), io::format_number(entry.upper)),
@@ -194,9 +191,8 @@ Decomposition decompose(const fe::ParametricSystem& system, const std::vector<fe
 }
 
 bool is_zero(const linalg::SparseMatrix& matrix) {
-  for (Eigen::Index i = 0; i < matrix.nonZeros(); ++i) {
+  for (Eigen::Index i = 0; i < matrix.nonZeros(); ++i)
     if (matrix.valuePtr()[i] != 0.0) return false;
-  }
   return true;
 }
 

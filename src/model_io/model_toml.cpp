@@ -172,9 +172,8 @@ fe::Parameter to_parameter(const std::filesystem::path& file, const fe::Model& m
                                 io::format_number(p.lower), io::format_number(p.initial), io::format_number(p.upper)),
                     "put the bounds around the initial value");
   }
-  for (const auto& other : model.parameters) {
+  for (const auto& other : model.parameters)
     if (other.name == p.name) throw key_error(file, anchor, key, "appears twice", "give each parameter a name of its own");
-  }
   return p;
 }
 

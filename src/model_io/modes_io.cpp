@@ -115,9 +115,8 @@ modal::ModeSet read_modes(const std::filesystem::path& folder, std::vector<long>
                                         {"frequency_std_Hz", "damping_ratio_pct", "damping_ratio_std_pct"}, true);
   // A mode that some setups did not see has a shape with holes; it is listed for people and not for comparisons.
   std::set<std::string> left_out;
-  for (std::size_t row = 0; row < table.rows(); ++row) {
+  for (std::size_t row = 0; row < table.rows(); ++row)
     if (table.text(row, "partial") == "1") left_out.insert(table.text(row, "mode"));
-  }
   Eigen::Index n = 0;
   for (std::size_t row = 0; row < table.rows(); ++row) n += left_out.contains(table.text(row, "mode")) ? 0 : 1;
   modal::ModeSet modes;
@@ -172,9 +171,8 @@ modal::ModeSet to_mode_set(const fe::Model* model, const fe::ParametricSystem& s
     return set;
   }
   set.shapes = system.expand(modes.shapes).cast<std::complex<double>>();
-  for (const auto& node : model->nodes) {
+  for (const auto& node : model->nodes)
     for (const auto& direction : direction_names()) set.dofs.push_back({std::to_string(node.id), direction});
-  }
   TWINDECK_ASSERT(set.shapes.rows() == static_cast<Eigen::Index>(set.dofs.size()));
   return set;
 }

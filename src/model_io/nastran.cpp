@@ -63,9 +63,8 @@ struct Reason {
 
 std::map<std::string, std::string> by_card(std::span<const Reason> reasons) {
   std::map<std::string, std::string> result;
-  for (const Reason& reason : reasons) {
+  for (const Reason& reason : reasons)
     for (const char* card : reason.cards) result.emplace(card, reason.reason);
-  }
   return result;
 }
 
@@ -123,9 +122,8 @@ const std::map<std::string, std::string>& refused_cards() {
 
 /// PARAM names that would scale the matrices of the structure; every other parameter but WTMASS and COUPMASS is passed over.
 bool scales_matrices(const std::string& parameter) {
-  for (const char* name : {"CK1", "CK2", "CK3", "CM1", "CM2"}) {
+  for (const char* name : {"CK1", "CK2", "CK3", "CM1", "CM2"})
     if (parameter == name) return true;
-  }
   return false;
 }
 
@@ -137,9 +135,8 @@ bool is_read_apart(const std::string& name) {
 
 void refuse_or_note(Parts& parts) {
   std::vector<std::string> known;
-  for (const auto& pass : reading_passes()) {
+  for (const auto& pass : reading_passes())
     for (const auto& [name, reader] : pass) known.push_back(name);
-  }
   std::map<std::string, std::pair<long, const Card*>> passed_over;
   for (const Card& card : parts.deck.cards()) {
     const bool is_known = is_read_apart(card.name) || std::find(known.begin(), known.end(), card.name) != known.end();

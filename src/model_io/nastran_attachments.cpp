@@ -77,9 +77,8 @@ std::array<double, 6> bush_stiffness(Parts& parts, const Card& p) {
       p.fail(fmt::format("has a row '{}', expected K, B, GE or RCV", key), "check the columns of the card");
     }
   }
-  for (const double value : k) {
+  for (const double value : k)
     if (value < 0.0) p.fail("a stiffness is negative", "check the sign");
-  }
   return k;
 }
 
@@ -142,9 +141,8 @@ void add_mass(Parts& parts, const std::string& name, int node, const MassMatrix&
 template <int n>
 Eigen::Matrix<double, n, n> symmetric(const Card& card, std::size_t first) {
   Eigen::Matrix<double, n, n> m;
-  for (int row = 0; row < n; ++row) {
+  for (int row = 0; row < n; ++row)
     for (int column = 0; column <= row; ++column) m(row, column) = m(column, row) = card.number_or(first++, 0.0);
-  }
   return m;
 }
 

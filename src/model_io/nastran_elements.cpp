@@ -124,9 +124,8 @@ void read_rod(Parts& parts, const Card& card) {
 void finish_rods(Parts& parts) {
   std::set<int> holds = parts.turning;
   for (const fe::RigidLink& link : parts.model.links) holds.insert(link.slave);
-  for (const fe::Support& support : parts.model.supports) {
+  for (const fe::Support& support : parts.model.supports)
     if (support.fixed[3] && support.fixed[4] && support.fixed[5]) holds.insert(support.node);
-  }
   std::size_t left_out = 0;
   for (const Parts::Twist& twist : parts.twists) {
     if (!holds.contains(twist.a) || !holds.contains(twist.b)) {
@@ -157,10 +156,9 @@ void read_shell(Parts& parts, const Card& card) {
     card.fail("has an offset (ZOFFS), which is not read", "put the grids on the middle surface, or join them by RBE2");
   const double t = p.number_or(2, 0.0);
   if (!(t > 0.0)) p.fail(fmt::format("the thickness is {:g}, expected a value above 0", t), "give T in field 4");
-  for (std::size_t i = thicknesses; i < thicknesses + corners; ++i) {
+  for (std::size_t i = thicknesses; i < thicknesses + corners; ++i)
     if (std::abs(card.number_or(i, t) - t) > 1e-9 * t)
       card.fail("has thicknesses at its corners that are not the property's, which is not read", "give PSHELL the thickness");
-  }
   const long membrane = p.integer(1), bending = p.integer_or(3, 0);
   if (bending != membrane)
     p.fail(bending == 0 ? "has no MID2, so that it is a membrane without bending, which is not read"

@@ -97,14 +97,12 @@ void index_card(Parts& parts, const Card& card) {
   } else if (card.name == "PELAS" || card.name == "PMASS") {
     const bool spring = card.name == "PELAS";
     auto& list = spring ? parts.spring_constants : parts.scalar_masses;
-    for (std::size_t i = 0; i < 8 && !card.blank(i); i += spring ? 4 : 2) {
+    for (std::size_t i = 0; i < 8 && !card.blank(i); i += spring ? 4 : 2)
       if (!list.emplace(card.integer(i), card.number(i + 1)).second)
         card.fail(fmt::format("the number {} is defined twice", card.integer(i)), "keep one of the two cards");
-    }
   } else if (card.name == "SPOINT") {
-    for (std::size_t i = 0; i < card.size(); ++i) {
+    for (std::size_t i = 0; i < card.size(); ++i)
       if (is_whole_number(card.fields[i])) parts.scalar_points.insert(card.integer(i));
-    }
   } else {
     auto& list = parts.properties[card.integer(0)];
     if (std::any_of(list.begin(), list.end(), [&](const Card* other) { return other->name == card.name; }))

@@ -43,10 +43,9 @@ void check_station(const Card& card, const Station& s) {
 }
 
 void refuse_values(const Card& card, std::size_t first, std::size_t count, const char* what) {
-  for (std::size_t i = first; i < first + count; ++i) {
+  for (std::size_t i = first; i < first + count; ++i)
     if (card.number_or(i, 0.0) != 0.0)
       card.fail(fmt::format("has {}, which is not read", what), "write the section without it");
-  }
 }
 
 /// A hat on a plate of the width d0: height d1, top d2, thicknesses of hat and plate d3, d4.
@@ -210,11 +209,9 @@ MemberProperty tapered_library(Parts& parts, const Card& card) {
 std::string property_name(const Card& property) { return lower_case(property.name + "_" + property.text(0)); }
 
 const Card& Parts::property(const DeckPlace& element, long id, const std::vector<std::string>& kinds) const {
-  if (const auto found = properties.find(id); found != properties.end()) {
-    for (const Card* card : found->second) {
+  if (const auto found = properties.find(id); found != properties.end())
+    for (const Card* card : found->second)
       if (std::find(kinds.begin(), kinds.end(), card->name) != kinds.end()) return *card;
-    }
-  }
   element.fail(fmt::format("property {} is no {} of this deck", id, fmt::join(kinds, " or ")),
                "give the property, or mend its number");
 }

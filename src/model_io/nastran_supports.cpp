@@ -51,9 +51,8 @@ bool is_set_card(const Card& card) { return card.name == "SPC" || card.name == "
 /// Numbers of the sets that hold: the chosen one, with those that SPCADD puts together.
 std::set<long> chosen_sets(Parts& parts) {
   std::set<long> all, chosen;
-  for (const Card& card : parts.deck.cards()) {
+  for (const Card& card : parts.deck.cards())
     if (is_set_card(card)) all.insert(card.integer(0));
-  }
   const CaseControl& control = parts.deck.case_control();
   if (control.spc) {
     chosen.insert(*control.spc);
@@ -122,9 +121,8 @@ std::vector<fe::Constraint::Term> terms_of(Parts& parts, const Card& card, long 
   const Eigen::RowVector3d direction = parts.displacement_axes(card, grid).row(component % 3);
   const int node = parts.node(card, grid), first = component < 3 ? 0 : 3;
   std::vector<fe::Constraint::Term> terms;
-  for (int i = 0; i < 3; ++i) {
+  for (int i = 0; i < 3; ++i)
     if (std::abs(direction[i]) > nothing) terms.push_back({node, first + i, factor * direction[i]});
-  }
   return terms;
 }
 
@@ -134,9 +132,8 @@ bool is_real(const std::string& field) { return field.find('.') != std::string::
 std::vector<DeckModel::Sample> samples_of(Parts& parts, const Card& card) {
   constexpr std::size_t first_weight = 4;
   std::vector<std::string> words;
-  for (std::size_t i = first_weight; i < card.size(); ++i) {
+  for (std::size_t i = first_weight; i < card.size(); ++i)
     if (!card.blank(i)) words.push_back(card.word(i));
-  }
   std::vector<DeckModel::Sample> samples;
   for (std::size_t i = 0; i < words.size() && words[i] != "ALPHA";) {
     if (words[i] == "UM") card.fail("moves dependency to other grids (UM), which is not read", "leave UM out");
@@ -150,10 +147,9 @@ std::vector<DeckModel::Sample> samples_of(Parts& parts, const Card& card) {
     for (i += 2; i < words.size() && !is_real(words[i]) && words[i] != "UM" && words[i] != "ALPHA"; ++i) {
       if (!is_whole_number(words[i])) card.fail(fmt::format("'{}' is no grid", words[i]), "list the grids one by one");
       const long grid = std::stol(words[i]);
-      for (int c = 0; c < 6; ++c) {
+      for (int c = 0; c < 6; ++c)
         if (chosen[fe::slot(c)])
           samples.push_back({parts.node(card, grid), parts.displacement_axes(card, grid).row(c % 3), c > 2, weight});
-      }
     }
     if (samples.size() == before) card.fail("a group has no grid", "give weight, components, grids");
   }
@@ -229,9 +225,8 @@ void read_rigid(Parts& parts, const Card& card) {
 
 void read_supports(Parts& parts) {
   const std::set<long> chosen = chosen_sets(parts);
-  for (const Card& card : parts.deck.cards()) {
+  for (const Card& card : parts.deck.cards())
     if (is_set_card(card) && chosen.contains(card.integer(0))) read_support_card(parts, card);
-  }
   for (const auto& [id, card] : parts.grids) {
     // PS of the grid, or of GRDSET.
     const Card& from = card->blank(6) && parts.grid_defaults != nullptr ? *parts.grid_defaults : *card;

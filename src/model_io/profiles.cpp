@@ -290,9 +290,8 @@ double rectangle_torsion(double a, double b) {
 std::optional<Profile> recognise_pipe(const fe::Section& s, double tolerance) {
   if (s.area_m2 <= 0.0 || s.inertia_y_m4 <= 0.0 || s.inertia_z_m4 <= 0.0) return std::nullopt;
   if (std::abs(s.inertia_yz_m4) > tolerance * s.inertia_y_m4) return std::nullopt;
-  if (!near(s.inertia_y_m4, s.inertia_z_m4, tolerance) || !near(s.torsion_m4, s.inertia_y_m4 + s.inertia_z_m4, tolerance)) {
+  if (!near(s.inertia_y_m4, s.inertia_z_m4, tolerance) || !near(s.torsion_m4, s.inertia_y_m4 + s.inertia_z_m4, tolerance))
     return std::nullopt;
-  }
   // R² + r² = 4 I / A,  R² - r² = A / pi
   const double sum = 4.0 * s.inertia_y_m4 / s.area_m2, difference = s.area_m2 / pi;
   const double outer = std::sqrt((sum + difference) / 2.0), inner2 = (sum - difference) / 2.0;

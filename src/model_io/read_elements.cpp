@@ -69,9 +69,8 @@ void read_element_nodes(const io::CsvTable& table, std::size_t row, const NameIn
           "leave the cell empty or make the element a shell (three or four nodes) or a solid (four, eight, ten or twenty)");
     }
   }
-  if (std::set<int>(element.nodes.begin(), element.nodes.end()).size() != wanted) {
+  if (std::set<int>(element.nodes.begin(), element.nodes.end()).size() != wanted)
     table.fail(row, "node1", fmt::format("element {} has the same node twice", element.id), "give it nodes that differ");
-  }
 }
 
 Eigen::Vector3d read_vector(const io::CsvTable& table, std::size_t row, const std::string& prefix, const std::string& suffix) {
@@ -131,9 +130,8 @@ std::string unique_name(const io::CsvTable& table, std::size_t row, const std::s
                         const std::map<std::string, int>& known) {
   const std::string name = table.text(row, column);
   if (name.empty()) table.fail(row, column, "is empty, expected a name", "name it so that elements.csv can refer to it");
-  if (known.contains(name)) {
+  if (known.contains(name))
     table.fail(row, column, fmt::format("'{}' appears twice", name), "give each " + column + " a name of its own");
-  }
   return name;
 }
 
@@ -149,9 +147,8 @@ bool read_flag(const io::CsvTable& table, std::size_t row, const std::string& co
 
 double not_negative(const io::CsvTable& table, std::size_t row, const std::string& column) {
   const double value = table.number_or(row, column, 0.0);
-  if (value < 0.0) {
+  if (value < 0.0)
     table.fail(row, column, fmt::format("is {}, expected a value of at least 0", io::format_number(value)), "check the sign");
-  }
   return value;
 }
 
@@ -186,9 +183,8 @@ void read_elements(const std::filesystem::path& folder, fe::Model& model, const 
   for (std::size_t row = 0; row < table.rows(); ++row) {
     fe::Element e;
     e.id = table.integer(row, "element");
-    if (!ids.insert(e.id).second) {
+    if (!ids.insert(e.id).second)
       table.fail(row, "element", fmt::format("element {} appears twice", e.id), "give each element a number of its own");
-    }
     e.type = read_type(table, row);
     e.name = table.text(row, "name");
     e.group = table.text(row, "group");
@@ -247,9 +243,8 @@ void read_nodes(const std::filesystem::path& folder, fe::Model& model, NameIndex
     fe::Node node;
     node.id = table.integer(row, "node");
     node.x_m = {coordinate(table, row, "x_m"), coordinate(table, row, "y_m"), coordinate(table, row, "z_m")};
-    if (!index.nodes.emplace(node.id, static_cast<int>(row)).second) {
+    if (!index.nodes.emplace(node.id, static_cast<int>(row)).second)
       table.fail(row, "node", fmt::format("node {} appears twice", node.id), "give each node a number of its own");
-    }
     model.nodes.push_back(node);
   }
   if (model.nodes.empty()) throw InputError({table.file().string(), 0, ""}, "holds no node", "give one node a row");
@@ -333,9 +328,8 @@ void read_springs(const std::filesystem::path& folder, fe::Model& model, const N
     s.node2 = table.text(row, "node2").empty() ? -1 : index.node(table, row, "node2");
     if (s.node == s.node2) table.fail(row, "node2", "is the node itself", "leave it empty for a spring to the ground");
     s.direction = {table.number(row, "direction_x"), table.number(row, "direction_y"), table.number(row, "direction_z")};
-    if (s.direction.norm() < 1e-12) {
+    if (s.direction.norm() < 1e-12)
       table.fail(row, "direction_x", "the direction has no length", "give the direction cosines of the spring's axis");
-    }
     // Rescaled only when it is not of unit length to the twelve digits of the file, so that a round trip changes nothing.
     if (std::abs(s.direction.norm() - 1.0) > 1e-11) s.direction.normalize();
     s.rotation = is_second_word(table, row, "quantity", "translation", "rotation");
@@ -413,9 +407,8 @@ void read_points(const std::filesystem::path& folder, fe::Model& model, const Na
   const auto table = io::CsvTable::read(folder / "points.csv", {"point", "node"});
   for (std::size_t row = 0; row < table.rows(); ++row) {
     const std::string point = table.text(row, "point");
-    if (!model.monitoring_points.emplace(point, index.node(table, row, "node")).second) {
+    if (!model.monitoring_points.emplace(point, index.node(table, row, "node")).second)
       table.fail(row, "point", fmt::format("point '{}' appears twice", point), "give each point a name of its own");
-    }
   }
 }
 

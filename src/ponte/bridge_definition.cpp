@@ -296,10 +296,9 @@ ParameterDefinition read_parameter(DefinitionFile& file, const std::string& path
 /// Names of all stays: NE1 ... , SE1 ..., NW..., SW..., BN, BS.
 std::vector<std::string> stay_names(const BridgeDefinition& definition) {
   std::vector<std::string> out;
-  for (const DeckDefinition& deck : definition.decks) {
+  for (const DeckDefinition& deck : definition.decks)
     for (const std::string& prefix : {deck.stay.prefix_north, deck.stay.prefix_south})
       for (int i = 1; i <= deck.stay.count; ++i) out.push_back(prefix + std::to_string(i));
-  }
   out.push_back("BN");
   out.push_back("BS");
   return out;

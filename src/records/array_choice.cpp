@@ -65,17 +65,14 @@ ArrayChoice choose_arrays(const std::vector<NamedArray>& arrays, const std::vect
   if (arrays[best].shorter() > 1) {
     choice.data = {best};
     choice.transposed = arrays[best].columns > arrays[best].rows;
-    for (std::size_t i = 0; i < arrays.size(); ++i) {
+    for (std::size_t i = 0; i < arrays.size(); ++i)
       if (i != best && arrays[i].shorter() > 1 && arrays[i].longer() == samples) choice.left_out.push_back(i);
-    }
   } else {
-    for (std::size_t i = 0; i < arrays.size(); ++i) {
+    for (std::size_t i = 0; i < arrays.size(); ++i)
       if (arrays[i].shorter() == 1 && arrays[i].longer() == samples && !is_time(arrays[i].name)) choice.data.push_back(i);
-    }
   }
-  for (std::size_t i = 0; i < arrays.size(); ++i) {
+  for (std::size_t i = 0; i < arrays.size(); ++i)
     if (arrays[i].shorter() == 1 && arrays[i].longer() == samples && is_time(arrays[i].name)) choice.time = static_cast<int>(i);
-  }
   return choice;
 }
 

@@ -119,10 +119,9 @@ std::string check_rate(const Campaign& campaign, const CampaignRecord& record, c
         place, fmt::format("the time stamps run at different rates, at another from {} on", place_of(info, clock.changes_rate)),
         "give each rate its own record");
   }
-  for (const std::string& note : info.notes) {
+  for (const std::string& note : info.notes)
     if (note.find("different rates") != std::string::npos)
       throw InputError({record.file.string(), 0, ""}, note, "give each rate its own record");
-  }
   if (info.rate_Hz <= 0.0) return "";
   const double stated = record.sampling_rate_Hz, rate = rate_beside(info, stated);
   const double share = info.rate_Hz == clock.rate_Hz ? clock.deviation_Hz / info.rate_Hz : 0.0,
@@ -325,9 +324,8 @@ std::vector<RecordGroup> record_groups(const Campaign& campaign, const RecordCho
   }
   // Conditions stay together, in the order in which they first appear.
   std::vector<std::string> order;
-  for (const RecordGroup& group : groups) {
+  for (const RecordGroup& group : groups)
     if (std::find(order.begin(), order.end(), group.condition) == order.end()) order.push_back(group.condition);
-  }
   std::stable_sort(groups.begin(), groups.end(), [&](const RecordGroup& a, const RecordGroup& b) {
     return std::find(order.begin(), order.end(), a.condition) < std::find(order.begin(), order.end(), b.condition);
   });

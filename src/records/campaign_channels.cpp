@@ -27,9 +27,8 @@ constexpr double kLargestCalibration = 3.1;
 std::string one_of(const io::CsvTable& table, std::size_t row, const std::string& column,
                    const std::vector<std::string>& allowed) {
   const std::string text = table.text(row, column).empty() ? allowed.front() : table.text(row, column);
-  if (std::find(allowed.begin(), allowed.end(), text) == allowed.end()) {
+  if (std::find(allowed.begin(), allowed.end(), text) == allowed.end())
     table.fail(row, column, fmt::format("is '{}', expected {}{}", text, fmt::join(allowed, ", "), did_you_mean(text, allowed)));
-  }
   return text;
 }
 
@@ -46,9 +45,8 @@ void read_place(const io::CsvTable& table, std::size_t row, CampaignChannel& cha
     table.fail(row, "dx", "dx, dy, dz are all 0: a channel measures along some direction",
                "give its direction cosines, for example 0,0,1 for upwards, or leave the three cells empty");
   }
-  if (const double length = channel.direction.norm(); given == 3 && std::abs(length - 1.0) > kLengthTolerance) {
+  if (const double length = channel.direction.norm(); given == 3 && std::abs(length - 1.0) > kLengthTolerance)
     table.fail(row, "dx", fmt::format("direction cosines have length {:.3f}, expected 1", length), "give a unit vector");
-  }
   if (given == 1 || given == 2) {
     table.fail(row, "dx",
                fmt::format("{} of the direction cosines dx, dy, dz {} given, expected three or none", given,

@@ -209,9 +209,8 @@ class Variable {
     const std::string own = data(name_tag, end, kLongestName), name = outer.empty() ? own : outer;
     // Dimensions of length 1 are none.
     std::vector<std::uint64_t> lengths;
-    for (std::size_t k = 0; k < dimensions.size() / 4; ++k) {
+    for (std::size_t k = 0; k < dimensions.size() / 4; ++k)
       if (dimensions.size() == 8 || word_of(dimensions, k) != 1) lengths.push_back(word_of(dimensions, k));
-    }
     lengths.resize(std::max<std::size_t>(lengths.size(), 2), 1);
     const std::uint64_t rows = lengths[0], columns = lengths[1];
     if (texts != nullptr && kind != kText) texts->all = false;
@@ -327,9 +326,8 @@ MatFile level_5(const fs::path& file, std::uint64_t size) {
     source.read(words.data(), words.size(), "a variable");
     const auto type = number_at<std::uint32_t>(words.data(), mat.swapped);
     const std::uint64_t bytes = number_at<std::uint32_t>(words.data() + 4, mat.swapped);
-    if (bytes > size - at - 8) {
+    if (bytes > size - at - 8)
       fail(fmt::format("breaks off in variable number {}: {} of its {} bytes are there", number, size - at - 8, bytes));
-    }
     if (type == kMatrix || type == kCompressed) {
       MatArray part;
       part.offset = at + 8;
@@ -392,9 +390,8 @@ MatFile read_mat_contents(const fs::path& file) {
   const std::uint64_t size = io::require_regular_file(file);
   std::ifstream in(file, std::ios::binary);
   std::string beginning(std::min<std::uint64_t>(size, 4096), '\0');
-  if (!in.read(beginning.data(), static_cast<std::streamsize>(beginning.size()))) {
+  if (!in.read(beginning.data(), static_cast<std::streamsize>(beginning.size())))
     throw InputError({file.string(), 0, ""}, "cannot be read", "check its name and your permissions");
-  }
   return is_mat_5(beginning) ? level_5(file, size) : level_4(file, size);
 }
 

@@ -62,10 +62,9 @@ matching::Measured assemble_measured(const io::CsvTable& table, const std::vecto
   modal::ModeSet& modes = measured.modes;
   modes.frequency_Hz = modes.frequency_std_Hz = modes.damping_ratio = modes.damping_ratio_std = Eigen::VectorXd(n);
   std::vector<const matching::Channel*> used;
-  for (const matching::Channel& channel : channels) {
+  for (const matching::Channel& channel : channels)
     if (std::any_of(found.begin(), found.end(), [&](const auto& mode) { return mode.second.shape.contains(channel.name); }))
       used.push_back(&channel);
-  }
   for (const matching::Channel* channel : used)
     modes.dofs.push_back({channel->point.empty() ? channel->name : channel->point, channel->name});
   modes.shapes.resize(static_cast<Index>(used.size()), n);

@@ -162,10 +162,9 @@ std::vector<matching::Channel> read_channels(const std::filesystem::path& file) 
     matching::Channel channel;
     channel.name = table.text(row, "channel");
     io::check_inner_name(channel.name, "channel", {file.string(), table.line(row), "channel"});
-    for (const matching::Channel& other : channels) {
+    for (const matching::Channel& other : channels)
       if (other.name == channel.name)
         table.fail(row, "channel", fmt::format("'{}' appears twice", channel.name), "remove one of the two rows");
-    }
     channel.point = table.text(row, "point");
     channel.line = table.line(row);
     read_gauge(table, row, channel);

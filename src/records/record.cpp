@@ -39,9 +39,8 @@ std::string beginning(const fs::path& file) {
 
 /// The signature at the beginning, or behind a user block (512 bytes in MAT 7.3).
 bool is_hdf5(std::string_view text) {
-  for (const std::size_t at : {0UL, 512UL, 1024UL, 2048UL}) {
+  for (const std::size_t at : {0UL, 512UL, 1024UL, 2048UL})
     if (text.size() > at && text.substr(at).starts_with("\x89HDF\r\n\x1a\n")) return true;
-  }
   return false;
 }
 
@@ -80,10 +79,9 @@ void refuse_containers(const fs::path& file, std::string_view text) {
        {"MDF ", "an MDF file", as_csv},
        {"RIFF", "a WAV file", as_csv},
        {"SQLite format 3", "a database", as_csv}}};
-  for (const Container& one : known) {
+  for (const Container& one : known)
     if (text.starts_with(one.begin) && !io::is_spreadsheet(file))
       throw InputError({file.string(), 0, ""}, std::string("is ") + one.what, one.mend);
-  }
 }
 
 }  // namespace

@@ -114,9 +114,8 @@ Envelope envelope_of(const std::vector<double>& residual, double step, bool shar
 /// The envelope rises nowhere more within its width: late stamps just before a gap lift it early.
 bool is_steepest(const std::vector<double>& ahead, std::size_t k, std::size_t width) {
   if (width == Envelope().width) return true;  // no stamp is late: each gap stands where it shows
-  for (std::size_t j = k + 1; j < std::min(k + width, ahead.size()); ++j) {
+  for (std::size_t j = k + 1; j < std::min(k + width, ahead.size()); ++j)
     if (ahead[j] - ahead[j - 1] > ahead[k] - ahead[k - 1]) return false;
-  }
   return true;
 }
 

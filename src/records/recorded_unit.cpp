@@ -24,10 +24,9 @@ std::string plain(const std::string& unit) {
   constexpr std::size_t longest = 40;  // bytes; no unit is as long
   if (unit.size() > longest) return "";
   std::string text = unit;
-  for (const auto& [from, to] : spellings) {
+  for (const auto& [from, to] : spellings)
     for (std::size_t at = text.find(from); at != std::string::npos; at = text.find(from, at + to.size()))
       text.replace(at, from.size(), to);
-  }
   return io::lower_case(text);
 }
 
@@ -78,9 +77,8 @@ constexpr Known kKnown[] = {
 
 std::optional<RecordedUnit> recorded_unit(const std::string& unit) {
   const std::string spelling = plain(unit);
-  for (const Known& known : kKnown) {
+  for (const Known& known : kKnown)
     if (is_one_of(known.spellings, spelling)) return RecordedUnit{known.quantity, known.si_factor};
-  }
   return {};
 }
 

@@ -350,9 +350,8 @@ bool survives(const std::function<void()>& work) {
   if (child < 0) return true;
   if (child == 0) do_and_end(work);
   int status = 0;
-  while (::waitpid(child, &status, 0) < 0) {
+  while (::waitpid(child, &status, 0) < 0)
     if (errno != EINTR) return true;
-  }
   return WIFEXITED(status) && WEXITSTATUS(status) == 0;
 }
 

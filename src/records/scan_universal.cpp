@@ -32,9 +32,8 @@ const char* direction_name(long code) {
 }
 
 void skip_set(UniversalLines& in, const std::string& set) {
-  for (std::string line; in.next(line);) {
+  for (std::string line; in.next(line);)
     if (is_delimiter(line)) return;
-  }
   in.fail(fmt::format("breaks off in set {}, expected -1 at its end", set), kCopyAgain);
 }
 

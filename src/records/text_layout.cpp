@@ -75,9 +75,8 @@ std::vector<Run> runs_of(const std::vector<std::string>& lines, char separator, 
 
 Run longest_of(const std::vector<Run>& runs) {
   Run best;
-  for (const Run& run : runs) {
+  for (const Run& run : runs)
     if (run.length > best.length) best = run;
-  }
   return best;
 }
 
@@ -328,9 +327,8 @@ void find_time(const std::vector<std::vector<std::string_view>>& rows, TextLayou
   if (!layout.stamps || stamp.find_first_of(".,", stamp.rfind(':')) == std::string_view::npos)  // no fraction of its own
     layout.time_parts = find_time_parts(rows, layout.names, layout.decimal_comma, layout.stamps);
   if (layout.time_parts) {
-    for (const int part : *layout.time_parts) {
+    for (const int part : *layout.time_parts)
       if (part >= 0) layout.other_times.push_back(static_cast<std::size_t>(part));
-    }
     if (!layout.stamps) layout.time_column = (*layout.time_parts)[kSecond];
   }
   std::size_t distinct = 1;

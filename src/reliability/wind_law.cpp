@@ -50,9 +50,8 @@ double WindLaw::average(const std::function<double(double)>& of_speed, double st
     for (std::size_t i = 0; i < speed_m_s.size(); ++i) sum += probability[i] * of_speed(speed_m_s[i]);
     return sum;
   }
-  for (double low = 0.0; exceedance(low) > kLeftOut; low += step_m_s) {
+  for (double low = 0.0; exceedance(low) > kLeftOut; low += step_m_s)
     sum += (exceedance(low) - exceedance(low + step_m_s)) * of_speed(low + 0.5 * step_m_s);
-  }
   return sum;
 }
 

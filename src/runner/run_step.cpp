@@ -117,9 +117,7 @@ void read_configuration(const CommandLine& line, Step& step, StepContext& contex
       context.seed = read_study(line.study).seed;
       context.input(study_file);
     }
-    if (const fs::path own = line.study / (step.token + ".toml"); fs::exists(own)) {
-      step.fields.load(context.input(own));
-    }
+    if (const fs::path own = line.study / (step.token + ".toml"); fs::exists(own)) step.fields.load(context.input(own));
   }
   for (const std::string& assignment : line.sets) step.fields.set(assignment);
   if (line.seed) context.seed = *line.seed;
@@ -153,9 +151,8 @@ fs::path unconverged_place(fs::path out) { return out += ".unconverged"; }
 
 std::map<std::string, std::string> hashes_below(const fs::path& folder) {
   std::map<std::string, std::string> hashes;
-  for (const auto& entry : fs::recursive_directory_iterator(folder)) {
+  for (const auto& entry : fs::recursive_directory_iterator(folder))
     if (entry.is_regular_file()) hashes[fs::relative(entry.path(), folder).generic_string()] = io::sha256(entry.path());
-  }
   return hashes;
 }
 
@@ -198,9 +195,8 @@ InputError in_words(const fs::filesystem_error& error) {
   };
   constexpr std::size_t longest_name = 200;  // letters: of a name that is too long messages say no more
   const std::string name = error.path1().string().substr(0, longest_name);
-  for (const Refusal& refusal : known) {
+  for (const Refusal& refusal : known)
     if (error.code() == refusal.code) return InputError({name, 0, ""}, refusal.problem, refusal.mend);
-  }
   return InputError({name, 0, ""}, error.code().message(), "check the path, and what the machine allows");
 }
 
@@ -209,13 +205,11 @@ InputError in_words(const fs::filesystem_error& error) {
 std::string located(const InputError& error, const Step& step, const StepContext& context) {
   if (!error.place().file.empty()) return error.what();
   const std::optional<Place> given = error.place().key.empty() ? std::nullopt : step.fields.place_of(error.place().key);
-  if (given && !given->file.empty()) {
+  if (given && !given->file.empty())
     return given->file + (given->line > 0 ? ":" + std::to_string(given->line) : "") + ": " + error.what();
-  }
   // A default is no word of the command line: what was read is named.
-  for (const std::optional<fs::path>& read : {context.model, context.campaign, context.features, context.modes}) {
+  for (const std::optional<fs::path>& read : {context.model, context.campaign, context.features, context.modes})
     if (read && context.study.empty()) return read->string() + ": " + error.what();
-  }
   const std::string source = context.model ? context.model->string() : context.study.string();
   return (source.empty() ? "command line" : source) + ": " + error.what();
 }
@@ -302,9 +296,8 @@ int compute(int argc, char** argv, const CommandLine& line, Step& step, const Co
 
 std::optional<std::string> StepContext::flag(const std::string& name) const {
   const std::string wanted = name.substr(std::min(name.find_first_not_of('-'), name.size()));
-  for (const auto& [given, value] : flags_) {
+  for (const auto& [given, value] : flags_)
     if (given == wanted) return value;
-  }
   return std::nullopt;
 }
 
@@ -322,9 +315,8 @@ fs::path StepContext::input(const fs::path& asked, std::uintmax_t most_bytes) {
                      "run the step that writes it, or point to your own data (--help)");
   }
   const std::vector<fs::path> files = files_of(path);
-  for (const fs::path& file : files) {
+  for (const fs::path& file : files)
     if (is_read_whole(file, path)) io::refuse_longer(file, most_bytes);
-  }
   io::check_against_manifest(path);
   for (const fs::path& file : files) input_hashes_.emplace(file.generic_string(), io::sha256(file));
   return path;

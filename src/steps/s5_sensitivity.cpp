@@ -38,9 +38,8 @@ Status run(const steps::SensitivityConfig& config, const dynamics::ReadModel& re
 
   // 4. Tables, and the outcome in words.
   steps::write_tables(loaded.system.parameters, found, selection, identified, config, context.out);
-  for (const std::string& line : steps::sensitivity_report(loaded.system.parameters, found, selection, identified, config)) {
+  for (const std::string& line : steps::sensitivity_report(loaded.system.parameters, found, selection, identified, config))
     context.say(line);
-  }
   return found.status;
 }
 

@@ -19,9 +19,8 @@ std::vector<int> on_bound(const Eigen::VectorXd& x, const Box& box, double toler
 std::vector<bool> held(const Eigen::VectorXd& x, const Eigen::VectorXd& gradient, const Box& box, double tolerance) {
   const std::vector<int> side = on_bound(x, box, tolerance);
   std::vector<bool> is_held(side.size(), false);
-  for (std::size_t i = 0; i < side.size(); ++i) {
+  for (std::size_t i = 0; i < side.size(); ++i)
     is_held[i] = static_cast<double>(side[i]) * gradient(static_cast<Eigen::Index>(i)) < 0.0;
-  }
   return is_held;
 }
 
@@ -29,9 +28,8 @@ Eigen::VectorXd projected_gradient(const Eigen::VectorXd& x, const Eigen::Vector
                                    double tolerance) {
   const std::vector<bool> is_held = held(x, gradient, box, tolerance);
   Eigen::VectorXd projected = gradient;
-  for (Eigen::Index i = 0; i < x.size(); ++i) {
+  for (Eigen::Index i = 0; i < x.size(); ++i)
     if (is_held[static_cast<std::size_t>(i)]) projected(i) = 0.0;
-  }
   return projected;
 }
 

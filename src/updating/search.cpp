@@ -65,9 +65,8 @@ void search_full(const Search& search, Eigen::VectorXd x, SharedSystem system, d
     const bool settled = !search.refresh || (outer > 0 && change < search.options.outer_tolerance);
     if (settled || !inner.converged || outer + 1 >= search.options.outer_iterations) {
       result.converged = inner.converged && settled;
-      if (inner.converged && !result.converged) {
+      if (inner.converged && !result.converged)
         result.message = fmt::format("parameters still change by {:.1e} after {} prestress states", change, outer + 1);
-      }
       const bool evaluable = residuals.at(x, true).valid;
       out.evaluation = residuals.at(x, evaluable);
       break;

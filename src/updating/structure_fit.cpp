@@ -20,11 +20,9 @@ using Eigen::VectorXd;
 /// Mass that a small matrix gives to a movement upwards of all its nodes.
 double vertical_mass(const fe::ElementMatrix& mass) {
   double sum = 0.0;
-  for (std::size_t j = 0; j < mass.dofs.size(); ++j) {
-    for (std::size_t i = 0; i < mass.dofs.size(); ++i) {
+  for (std::size_t j = 0; j < mass.dofs.size(); ++j)
+    for (std::size_t i = 0; i < mass.dofs.size(); ++i)
       if (mass.dofs[i] % 6 == 2 && mass.dofs[j] % 6 == 2) sum += mass.matrix(static_cast<Index>(i), static_cast<Index>(j));
-    }
-  }
   return sum;
 }
 
@@ -54,12 +52,10 @@ double mass_of_groups(const fe::Model& model, const std::vector<std::string>& gr
     return std::any_of(groups.begin(), groups.end(), [&](const std::string& begin) { return group.starts_with(begin); });
   };
   double sum = 0.0;
-  for (const fe::Element& element : model.elements) {
+  for (const fe::Element& element : model.elements)
     if (belongs(element.group)) sum += vertical_mass(fe::element_mass(model, element));
-  }
-  for (const fe::PointMass& mass : model.masses) {
+  for (const fe::PointMass& mass : model.masses)
     if (belongs(mass.group)) sum += mass.mass_kg;
-  }
   return sum;
 }
 
@@ -80,9 +76,8 @@ StructureAnswer static_answer(const fe::Model& model, const fe::PrestressState& 
   }
   if (data.limits.empty()) return out;
   std::vector<double> vertical;
-  for (const auto& condition : model.prestress.conditions) {
+  for (const auto& condition : model.prestress.conditions)
     if (condition.dof == 2) vertical.push_back(state.displacement[6 * condition.node + condition.dof]);
-  }
   out.displacement_m = Eigen::Map<const VectorXd>(vertical.data(), std::ssize(vertical));
   return out;
 }

@@ -23,9 +23,8 @@ MatrixXd project(const linalg::SparseMatrix& pattern, const std::vector<int>& co
                  const MatrixXd& basis) {
   std::vector<int> local(static_cast<std::size_t>(pattern.rows()), -1);
   const int* inner = pattern.innerIndexPtr();
-  for (const int p : term.position) {
+  for (const int p : term.position)
     local[static_cast<std::size_t>(inner[p])] = local[static_cast<std::size_t>(column[static_cast<std::size_t>(p)])] = 0;
-  }
   std::vector<Index> rows;
   for (std::size_t i = 0; i < local.size(); ++i) {
     if (local[i] < 0) continue;

@@ -38,9 +38,8 @@ void check_input(const fe::ParametricSystem& system, const std::vector<int>& act
     }
   }
   for (const FrequencyTarget& target : targets) {
-    if (!(target.measured_Hz > 0.0)) {
+    if (!(target.measured_Hz > 0.0))
       throw InputError({"", 0, target.label}, fmt::format("is {} Hz, expected a frequency above 0", target.measured_Hz));
-    }
     if (target.reference_mode < 0 || target.reference_mode >= system.size()) {
       throw InputError({"", 0, target.label}, fmt::format("asks for mode {} of a model with {} degrees of freedom",
                                                           target.reference_mode + 1, system.size()));
@@ -207,9 +206,8 @@ UpdatingResult update(const fe::ParametricSystem& start, const Refresh& refresh,
   definition.follower = std::make_shared<const matching::ModeFollower>(solver.mass(), reference);
   definition.start = std::make_shared<const StartModes>(StartModes{search.initial_system, definition.initial, reference});
   result.frequency_before_Hz.resize(static_cast<Eigen::Index>(targets.size()));
-  for (std::size_t i = 0; i < targets.size(); ++i) {
+  for (std::size_t i = 0; i < targets.size(); ++i)
     result.frequency_before_Hz(static_cast<Eigen::Index>(i)) = reference.frequency_Hz(targets[i].reference_mode);
-  }
 
   if (rows.given()) weigh(search, rows, x0, result);
   if (options.prior) hold_to_ranges(search, x0, result);

@@ -69,9 +69,8 @@ Polar read_polar(const std::filesystem::path& file) {
   const std::vector<std::string> slopes = {"dC_D_per_rad", "dC_L_per_rad", "dC_M_per_rad"};
   const io::CsvTable table = io::CsvTable::read(file, {"alpha_deg", "C_D", "C_L", "C_M"}, slopes);
   const auto given = std::count_if(slopes.begin(), slopes.end(), [&](const std::string& name) { return table.has(name); });
-  if (given != 0 && given != 3) {
+  if (given != 0 && given != 3)
     throw InputError({file.string(), 1, "dC_L_per_rad"}, "only some of the three slopes are given", "give all three or none");
-  }
   if (table.rows() == 1) {
     throw InputError({file.string(), 2, "alpha_deg"}, "is the only angle of attack, expected two or more",
                      "add the angles that the deck turns to");

@@ -64,9 +64,8 @@ wind::TurbulenceSet read_turbulence_set(const std::filesystem::path& file, const
   std::vector<std::string> columns = {
       "set",           "roughness_m", "minimum_height_m", "kappa", "sigma_u_over_v", "sigma_w_over_v", "scale_u_over_v",
       "scale_w_over_v"};
-  for (const wind::Component c : wind::components) {
+  for (const wind::Component c : wind::components)
     for (const char* axis : {"along", "across", "vertical"}) columns.push_back("decay_" + wind::paper_letter(c) + "_" + axis);
-  }
   const io::CsvTable table = io::CsvTable::read(file, columns, {"code"});
   std::vector<std::string> known;
   for (std::size_t row = 0; row < table.rows(); ++row) {
@@ -131,10 +130,9 @@ std::array<std::shared_ptr<const wind::CoherenceTable>, 3> read_coherences(const
   for (const wind::Component c : wind::components) {
     const Curve& curve = curves[static_cast<std::size_t>(c)];
     if (curve.rows.empty()) continue;
-    for (std::size_t i = 0; i < curve.rows.size(); ++i) {
+    for (std::size_t i = 0; i < curve.rows.size(); ++i)
       if (const double gamma = curve.y[static_cast<Eigen::Index>(i)]; !(std::abs(gamma) <= 1.0))
         table.fail(curve.rows[i], value, fmt::format("is {}, expected a number from -1 to 1", gamma));
-    }
     if (curve.x[0] != 0.0 || !(std::abs(curve.y[0] - 1.0) <= kCoherenceAtZero))
       table.fail(curve.rows.front(), value, fmt::format("is {} at {}, expected 1 at 0", curve.y[0], curve.x[0]),
                  "begin each component with the separation 0");

@@ -38,10 +38,9 @@ bool acts(const Calibration& calibration, const CalibrationValue& value, const s
   return std::any_of(value.paths.begin(), value.paths.end(), [&](const std::string& path) {
     if (path.starts_with("change.")) return variant != "preliminary";
     if (variant == "preliminary") return true;
-    for (const CalibrationValue& other : calibration.values) {
+    for (const CalibrationValue& other : calibration.values)
       for (const std::string& changed : other.paths)
         if (changed.starts_with("change.") && changed.ends_with("." + path)) return false;
-    }
     return true;
   });
 }

@@ -174,10 +174,9 @@ std::vector<std::string> trade_columns(const Calibration& calibration) {
       out.push_back(target.variant + "_" + variable(mass.known.name) + "_kg_m");
     });
   }
-  for (const CalibrationTarget& target : calibration.targets) {
+  for (const CalibrationTarget& target : calibration.targets)
     for (const CalibrationLimit& limit : calibration.limits)
       if (limit.variant == target.variant) out.push_back(limit.variant + "_anchors_mm");
-  }
   for (const std::string& kind : kKinds) out.push_back("cost_" + kind);
   out.push_back("cost_values");
   out.push_back("iterations");

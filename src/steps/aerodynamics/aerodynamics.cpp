@@ -39,10 +39,9 @@ std::string status_of(const aero::CriticalRow& row, double max_speed_m_s) {
 void write_critical(const std::vector<aero::CriticalRow>& rows, const AerodynamicsConfig& config,
                     const std::filesystem::path& file) {
   std::map<std::string, double> speed_of_A;
-  for (const aero::CriticalRow& row : rows) {
+  for (const aero::CriticalRow& row : rows)
     if (row.model == "A" && !row.dampers && row.structural_damping == config.structural_damping && row.point)
       speed_of_A.emplace(row.set, row.point->speed_m_s);
-  }
   io::CsvWriter csv({"set", "model", "group", "description", "dampers", "structural_damping_pct", "mode", "V_cr_m_s", "f_cr_Hz",
                      "ratio_to_A", "f_cr_over_f1", "deck", "theta_rms_deg", "deck_share", "exponent", "V_cr_single_mode_m_s",
                      "V_den_hartog_m_s", "V_divergence_m_s", "status"});
@@ -193,9 +192,8 @@ std::string fitted_quantity(const std::string& set) { return set == "standin" ? 
 void write_tables(const AerodynamicsConfig& config, const aero::WindModel& model, const WindOutcome& found,
                   const std::filesystem::path& folder) {
   io::CsvWriter levels({"set", "level", "fitted_quantity", "fitted_model", "fitted_speed_m_s"});
-  for (const aero::FittedSet& set : found.sets) {
+  for (const aero::FittedSet& set : found.sets)
     levels.row({set.name, set.level, fitted_quantity(set.name), config.fit_model, config.fit_speed_m_s});
-  }
   levels.save(folder / "sets.csv");
   write_critical(found.instabilities.critical, config, folder / "critical.csv");
   write_damping(found.instabilities.damping, folder / "damping.csv");
@@ -221,10 +219,9 @@ void say_outcome(const runner::StepContext& context, const AerodynamicsConfig& c
     }
   }
   for (const aero::DampingCurves& curves : found.damping) {
-    for (const aero::Branch& branch : curves.branches) {
+    for (const aero::Branch& branch : curves.branches)
       if (!branch.status.converged)
         context.say(curves.set + (curves.dampers ? ", with dampers: " : ": ") + branch.status.message);
-    }
   }
 }
 
@@ -252,10 +249,9 @@ Status run_aerodynamics(runner::StepContext& context, const AerodynamicsConfig& 
   linalg::Cholesky factor;
   const Status factored = factor.factorize(loaded.system.stiffness(loaded.theta));
   if (!factored.converged) return factored;
-  for (const aero::FittedSet& set : found.sets) {
+  for (const aero::FittedSet& set : found.sets)
     for (const aero::Deployment& deployment : config.deployments())
       found.statics.push_back(aero::static_response(config, set, deployment, model, loaded, factor));
-  }
 
   // 4. Tables, and the outcome in words.
   write_tables(config, model, found, context.out);

@@ -29,15 +29,13 @@ std::vector<std::string> used_setups(const ponte::CampaignSettings& settings,
 /// Channels that more than one setup has: those stay at their place while the others move.
 std::set<std::string> references(const std::vector<sensors::LayoutChannel>& layout, const std::vector<std::string>& used) {
   std::map<std::string, int> count;
-  for (const std::string& setup : used) {
+  for (const std::string& setup : used)
     for (const sensors::LayoutChannel& channel : sensors::channels_of(layout, setup)) ++count[channel.channel];
-  }
   int most = 1;
   for (const auto& [name, times] : count) most = std::max(most, times);
   std::set<std::string> out;
-  for (const auto& [name, times] : count) {
+  for (const auto& [name, times] : count)
     if (most > 1 && times == most) out.insert(name);
-  }
   return out;
 }
 
@@ -53,9 +51,8 @@ void write_channels(const ponte::CampaignSettings& settings, const std::vector<s
     csv.row({name, point, x.x(), x.y(), x.z(), d.x(), d.y(), d.z(), "acceleration", "m/s^2", 1, fixed.contains(name) ? 1 : 0,
              "response"});
   };
-  for (const std::string& setup : used) {
+  for (const std::string& setup : used)
     for (const sensors::LayoutChannel& c : sensors::channels_of(layout, setup)) row(c.channel, c.point, c.x_m, c.cosines);
-  }
   for (std::size_t i = 0; i < stays.size(); ++i)
     row(settings.stays[i].stay, settings.stays[i].stay, stays[i].x_m, stays[i].direction);
   csv.save(file);

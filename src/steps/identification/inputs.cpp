@@ -35,12 +35,10 @@ records::Campaign read_lists(runner::StepContext& context) {
   if (!std::filesystem::exists(folder)) context.input(folder);
   records::Campaign campaign = records::read_campaign(folder);
   for (const std::string& warning : campaign.warnings) context.say(warning);
-  for (const char* name : {"campaign.toml", "channels.csv", "conditions.toml"}) {
+  for (const char* name : {"campaign.toml", "channels.csv", "conditions.toml"})
     if (std::filesystem::exists(folder / name)) context.input(folder / name);
-  }
-  for (const records::CampaignRecord& record : campaign.records) {
+  for (const records::CampaignRecord& record : campaign.records)
     if (std::filesystem::exists(record.file)) context.record(record.file);
-  }
   return campaign;
 }
 

@@ -63,9 +63,8 @@ void write_shapes(const identification::ConditionResult& result, const fs::path&
   for (std::size_t m = 0; m < result.modes.size(); ++m) {
     const Eigen::VectorXcd& shape = result.modes[m].shape;
     std::complex<double> largest = 0.0;
-    for (Index i = 0; i < shape.size(); ++i) {
+    for (Index i = 0; i < shape.size(); ++i)
       if (!std::isnan(shape[i].real()) && std::abs(shape[i]) > std::abs(largest)) largest = shape[i];
-    }
     for (std::size_t c = 0; c < result.channels.size(); ++c) {
       const std::complex<double> value = shape[static_cast<Index>(c)] / largest;
       if (std::isnan(value.real())) continue;
@@ -78,11 +77,9 @@ void write_shapes(const identification::ConditionResult& result, const fs::path&
 /// Position in the merged list of a setup's mode, "" for none.
 std::string merged_name(const identification::ConditionResult& result, std::size_t setup, int mode) {
   if (mode < 0) return "";
-  for (std::size_t m = 0; m < result.modes.size(); ++m) {
-    for (const auto& member : result.modes[m].members) {
+  for (std::size_t m = 0; m < result.modes.size(); ++m)
+    for (const auto& member : result.modes[m].members)
       if (member == std::pair(setup, static_cast<std::size_t>(mode))) return name_of(m);
-    }
-  }
   return "";
 }
 
@@ -171,9 +168,8 @@ void write_condition(const records::Campaign& campaign, const identification::Co
 /// An empty table each, in the order of first appearance.
 std::string tables_of(const std::vector<std::string>& conditions) {
   std::string tables;
-  for (auto at = conditions.begin(); at != conditions.end(); ++at) {
+  for (auto at = conditions.begin(); at != conditions.end(); ++at)
     if (std::find(conditions.begin(), at, *at) == at) tables += "[" + *at + "]\n";
-  }
   return tables;
 }
 
@@ -200,9 +196,8 @@ void write_features(const records::Campaign& campaign, const std::vector<identif
         csv.row({"shape_imag", name, channel, condition, mode.shape[i].imag(), at_least(mode.deviation.shape_imag[i], 1e-6)});
       }
     }
-    for (const identification::SetupResult& setup : result.setups) {
+    for (const identification::SetupResult& setup : result.setups)
       quality.insert(quality.end(), setup.conditioned.quality.begin(), setup.conditioned.quality.end());
-    }
   }
   for (const std::vector<io::Cell>& row : more) csv.row(row);
   csv.save(folder / "rows.csv");

@@ -28,10 +28,9 @@ void write_comparison(const std::vector<matching::ComparisonRow>& rows, const st
 
 void write_mac(const matching::Measured& measured, const matching::Pairing& pairing, const std::filesystem::path& folder) {
   io::CsvWriter csv({"experimental_mode", "numerical_mode", "mac"});
-  for (Index j = 0; j < pairing.mac.rows(); ++j) {
+  for (Index j = 0; j < pairing.mac.rows(); ++j)
     for (Index i = 0; i < pairing.mac.cols(); ++i)
       csv.row({label(measured, i), matching::numerical_label(j), known(pairing.mac(j, i))});
-  }
   csv.save(folder / "mac.csv");
 }
 

@@ -65,9 +65,8 @@ void add_mesh(const fe::Model& model, records::UniversalData& universal) {
 }
 
 void export_inp(const dynamics::LoadedModel& loaded, int n_modes, const runner::StepContext& context) {
-  if (loaded.fe_model() == nullptr) {
+  if (loaded.fe_model() == nullptr)
     throw InputError({"command line", 0, "--export-inp"}, "a matrix model has no elements to export", "use --export-matrices");
-  }
   const auto write = [&](model_io::InpFlavour flavour, const char* file) {
     return model_io::write_inp(*loaded.model, loaded.state, flavour, n_modes, context.out / file);
   };

@@ -156,9 +156,8 @@ Status run_refinement(runner::StepContext& context, const RefinementConfig& conf
                              [&](int done, int of) { context.progress("as-built changes", done, of); });
   }
   write_changes(changes, context.out);
-  for (const Status& status : {initial.modes.status, refined.modes.status, changes.status}) {
+  for (const Status& status : {initial.modes.status, refined.modes.status, changes.status})
     if (!status.converged) return status;
-  }
   return outcome({}, account);
 }
 

@@ -231,14 +231,12 @@ void check_lists(const ReliabilityConfig& config, const std::vector<reliability:
   if (!rises(config.years) || config.years.front() != 0.0)
     throw InputError({"", 0, "years"}, "do not begin with 0 and rise: all changes are told against the year 0",
                      "write years = [0, 25, 50]");
-  for (const StatedComfort& limit : config.comfort) {
+  for (const StatedComfort& limit : config.comfort)
     if (limit.vertical_m_s2 == 0.0 && limit.lateral_m_s2 == 0.0)
       throw InputError({"", 0, "comfort"}, "states no limit under '" + limit.name + "'", "give vertical or lateral, in m/s2");
-  }
-  for (const StatedWall& wall : config.walls) {
+  for (const StatedWall& wall : config.walls)
     if (wall.sections.empty())
       throw InputError({"", 0, "wall.sections"}, "are none", "name the sections of sections.csv that corrode");
-  }
   if (model == nullptr) return;
   static_cast<void>(reliability::worn_model(*model, walls, config.years.back()));
   for (const StatedFault& fault : config.faults)

@@ -342,10 +342,9 @@ void find_years(const ReliabilityInputs& read, const fe::Model& start, const Str
   for (std::size_t i = 0; i < s.stays.names.size(); ++i)
     found.years.push_back({s.of, "stay_force", s.stays.names[i], "N", s.stays.pull_N[static_cast<Index>(i)], std::nullopt});
   for (const reliability::Wall& wall : read.walls) {
-    for (const fe::Section& section : start.sections) {
+    for (const fe::Section& section : start.sections)
       if (std::find(wall.sections.begin(), wall.sections.end(), section.name) != wall.sections.end())
         found.years.push_back({s.of, "remaining_area", section.name, "-", wall.remaining(section, s.of.years), std::nullopt});
-    }
   }
 }
 

@@ -134,9 +134,8 @@ std::vector<std::string> parameter_names(const std::vector<fe::Parameter>& param
 
 void check_sensitivity_config(const SensitivityConfig& config, const std::vector<fe::Parameter>& parameters,
                               const std::string& source) {
-  if (parameters.empty()) {
+  if (parameters.empty())
     throw InputError({source, 0, "parameter"}, "the model has no parameters", "define [[parameter]] tables in its model.toml");
-  }
   for (const double mode : config.compared_modes) {
     if (mode != std::floor(mode) || mode > static_cast<double>(config.n_modes)) {
       throw InputError({"", 0, "compared_modes"},

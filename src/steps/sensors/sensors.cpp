@@ -89,9 +89,8 @@ void write_auto_mac(const std::vector<sensors::ScoredSetup>& setups, const Matri
   io::CsvWriter csv({"setup", "mode", "other_mode", "mac"});
   for (const sensors::ScoredSetup& s : setups) {
     const MatrixXd mac = sensors::auto_mac(phi(s.rows, Eigen::all));
-    for (Index i = 0; i < mac.rows(); ++i) {
+    for (Index i = 0; i < mac.rows(); ++i)
       for (Index j = 0; j < mac.cols(); ++j) csv.row({s.name, static_cast<long>(i + 1), static_cast<long>(j + 1), mac(i, j)});
-    }
   }
   csv.save(folder / "automac.csv");
 }
@@ -147,11 +146,9 @@ void write_blind_test(const SensorsConfig& config, const sensors::BlindTestResul
                  p.pole.frequency_Hz, 100.0 * p.pole.damping_ratio, p.stable_frequency ? 1 : 0, p.stable_damping ? 1 : 0,
                  p.stable_shape ? 1 : 0, p.mode < 0 ? std::string() : std::to_string(p.mode + 1)});
     }
-    for (std::size_t c = 0; c < setup.channels.size(); ++c) {
-      for (Index f = 0; f < result.psd_frequency_Hz.size(); ++f) {
+    for (std::size_t c = 0; c < setup.channels.size(); ++c)
+      for (Index f = 0; f < result.psd_frequency_Hz.size(); ++f)
         psd.row({test.setup, setup.channels[c], result.psd_frequency_Hz[f], result.psd_m2_s3[i](f, static_cast<Index>(c))});
-      }
-    }
   }
   csv.save(folder / "blind_test.csv");
   poles.save(folder / "blind_poles.csv");

@@ -52,9 +52,8 @@ dynamics::ReadModel load_model(runner::StepContext& context, const std::filesyst
 
 dynamics::ReadModel load_study_model(runner::StepContext& context, const std::string& variant) {
   if (context.model) return load_model(context, *context.model);
-  if (context.study.empty()) {
+  if (context.study.empty())
     throw InputError({"", 0, ""}, "neither a study nor a model was given", "give --study workflows/<study> or --model DIR");
-  }
   const runner::Study study = runner::read_study(context.study);
   if (!study.model_inp.empty()) return import_file(context, study.model_inp);
   if (study.model_folder.empty() && study.model_generator.empty()) {

@@ -26,9 +26,8 @@ std::vector<std::string> selected_by_sensitivity(runner::StepContext& context) {
   }
   const io::CsvTable table = io::CsvTable::read(context.input(file), {"parameter", "selected"}, {}, true);
   std::vector<std::string> names;
-  for (std::size_t row = 0; row < table.rows(); ++row) {
+  for (std::size_t row = 0; row < table.rows(); ++row)
     if (table.integer(row, "selected") != 0) names.push_back(table.text(row, "parameter"));
-  }
   return names;
 }
 
@@ -49,9 +48,8 @@ std::vector<int> positions_of(const std::vector<std::string>& names, const dynam
                        "list parameters of the model");
     }
     const auto p = static_cast<int>(at - known.begin());
-    if (std::find(active.begin(), active.end(), p) != active.end()) {
+    if (std::find(active.begin(), active.end(), p) != active.end())
       throw InputError({"", 0, "parameters"}, fmt::format("names '{}' twice", name), "list each parameter once");
-    }
     if (!has_range(parameters[static_cast<std::size_t>(p)])) {
       throw InputError({model.source, 0, name}, "is fixed (its bounds coincide), but is listed for updating",
                        "give it a range in the model, or take it off the list");
@@ -67,11 +65,9 @@ std::vector<int> active_parameters(const UpdatingConfig& config, const dynamics:
                                    runner::StepContext& context) {
   const bool from_s5 = config.parameters_from == "s5_sensitivity";
   std::vector<int> active = positions_of(from_s5 ? selected_by_sensitivity(context) : config.parameters, model);
-  if (active.empty() && !from_s5) {
-    for (std::size_t p = 0; p < model.parameters().size(); ++p) {
+  if (active.empty() && !from_s5)
+    for (std::size_t p = 0; p < model.parameters().size(); ++p)
       if (has_range(model.parameters()[p])) active.push_back(static_cast<int>(p));
-    }
-  }
   if (active.empty()) {
     throw InputError({model.source, 0, "parameter"}, "no parameter to update: none is listed or selected, or none has a range",
                      "define parameters with lower < upper in model.toml");

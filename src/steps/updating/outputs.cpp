@@ -110,9 +110,8 @@ void write_starts(const std::vector<fe::Parameter>& parameters, const std::vecto
                                    start.converged ? 1 : 0,
                                    optimum > 0 ? io::Cell(optimum) : io::Cell(""),
                                    start.message};
-    for (std::size_t j = 0; j < active.size(); ++j) {
+    for (std::size_t j = 0; j < active.size(); ++j)
       cells.emplace_back(normalised(parameter_at(parameters, active, j), start.theta(static_cast<Eigen::Index>(j))));
-    }
     csv.row(cells);
   }
   csv.save(file);
@@ -121,9 +120,8 @@ void write_starts(const std::vector<fe::Parameter>& parameters, const std::vecto
 void write_costs(const updating::UpdatingResult& result, const std::filesystem::path& file) {
   io::CsvWriter csv({"point", "cost"});
   csv.row({"start", result.cost_before});
-  for (const updating::CostElsewhere& there : result.elsewhere) {
+  for (const updating::CostElsewhere& there : result.elsewhere)
     if (there.valid) csv.row({"published", there.cost});
-  }
   csv.row({"optimum", result.starts.at(static_cast<std::size_t>(result.best)).cost});
   csv.save(file);
 }

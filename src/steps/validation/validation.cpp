@@ -277,9 +277,8 @@ buffeting::MeasuredRms measured_rms(runner::StepContext& context, const Validati
         const Eigen::MatrixXd data = signal::detrended(recorded.values);
         if (!data.allFinite())
           throw InputError({record.file.string(), 0, ""}, "has gaps, which an RMS cannot have", "take a record without gaps");
-        for (std::size_t c = 0; c < record.channels.size(); ++c) {
+        for (std::size_t c = 0; c < record.channels.size(); ++c)
           if (vertical.contains(record.channels[c])) squares.add(record.channels[c], data.col(static_cast<Eigen::Index>(c)));
-        }
       }
     }
     squares.write(event.name, out);
@@ -297,9 +296,8 @@ struct ValidationInputs {
 };
 
 ValidationInputs read_validation_inputs(const ValidationConfig& config, runner::StepContext& context) {
-  if (config.events.empty() || config.runs.empty()) {
+  if (config.events.empty() || config.runs.empty())
     throw InputError({"", 0, config.events.empty() ? "event" : "run"}, "none is given", "add [[event]] and [[run]] tables");
-  }
   ValidationInputs read;
   read.turbulence = read_turbulence(config, context);
   read.aerodynamics = read_step_7(config.aerodynamics, context);
