@@ -102,8 +102,7 @@ std::vector<ComplexMode> still_air_modes(const ReducedStructure& structure) {
     if (!(lambda.imag() > least_oscillation * std::abs(lambda))) continue;
     modes.push_back({lambda, solver.eigenvectors().col(i).head(m).normalized()});
   }
-  std::sort(modes.begin(), modes.end(),
-            [](const ComplexMode& a, const ComplexMode& b) { return std::abs(a.lambda) < std::abs(b.lambda); });
+  std::ranges::sort(modes, [](const ComplexMode& a, const ComplexMode& b) { return std::abs(a.lambda) < std::abs(b.lambda); });
   return modes;
 }
 

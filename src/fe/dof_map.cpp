@@ -107,8 +107,7 @@ class Motions {
 
   std::vector<DofMap::Entry> of(int full, int depth = 0) {
     std::vector<DofMap::Entry> motion = rigid_motion(model_, full, root_[slot(full / 6)]), whole;
-    if (std::none_of(motion.begin(), motion.end(), [&](const auto& entry) { return dependent_.contains(entry.dof); }))
-      return motion;
+    if (std::ranges::none_of(motion, [&](const auto& entry) { return dependent_.contains(entry.dof); })) return motion;
     for (const DofMap::Entry& entry : motion) {
       const auto found = dependent_.find(entry.dof);
       if (found == dependent_.end()) {

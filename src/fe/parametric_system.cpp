@@ -43,8 +43,7 @@ Eigen::MatrixXd derivative_times(const linalg::SparseMatrix& pattern, const std:
                                  const Eigen::VectorXd& theta, int parameter, const Eigen::Ref<const Eigen::MatrixXd>& x) {
   TWINDECK_ASSERT(x.rows() == pattern.rows());
   std::vector<double> slope(terms.size());
-  std::transform(terms.begin(), terms.end(), slope.begin(),
-                 [&](const Term& term) { return term.coefficient.derivative(theta, parameter); });
+  std::ranges::transform(terms, slope.begin(), [&](const Term& term) { return term.coefficient.derivative(theta, parameter); });
   std::size_t entries = 0;
   for (std::size_t t = 0; t < terms.size(); ++t) entries += slope[t] != 0.0 ? terms[t].position.size() : 0;
   if (entries < static_cast<std::size_t>(x.rows()) / 10) {  // a spring, a few bars, nothing at all

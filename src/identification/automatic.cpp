@@ -168,9 +168,8 @@ std::vector<Cluster> whole_chains(const std::vector<DiagramPole>& diagram, const
                                   const std::vector<Cluster>& clusters, double cut) {
   std::vector<Cluster> whole;
   for (const Cluster& cluster : clusters) {
-    const bool unfinished = std::any_of(clusters.begin(), clusters.end(), [&](const Cluster& other) {
-      return &other != &cluster && goes_on(diagram, orders, cluster, other, cut);
-    });
+    const bool unfinished = std::ranges::any_of(
+        clusters, [&](const Cluster& other) { return &other != &cluster && goes_on(diagram, orders, cluster, other, cut); });
     if (!unfinished) whole.push_back(cluster);
   }
   return whole;

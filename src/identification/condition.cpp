@@ -39,9 +39,8 @@ std::vector<Index> common_references(const ConditionResult& result) {
   std::vector<Index> common;
   for (const Index r : result.setups.front().conditioned.references) {
     const std::string& name = result.setups.front().conditioned.channels[static_cast<std::size_t>(r)].name;
-    const bool everywhere = std::all_of(result.setups.begin(), result.setups.end(), [&](const SetupResult& setup) {
-      return position_of(setup.conditioned.channels, name) >= 0;
-    });
+    const bool everywhere = std::ranges::all_of(
+        result.setups, [&](const SetupResult& setup) { return position_of(setup.conditioned.channels, name) >= 0; });
     if (everywhere) common.push_back(position_of(result.channels, name));
   }
   return common;
@@ -275,9 +274,8 @@ void identify_condition(ConditionResult& result, const IdentificationSettings& c
   }
   merge_setups(result);
   if (result.setups.size() > 1 && result.setups.front().conditioned.excitation.empty() && is_one_rate(result)) {
-    const auto fewest =
-        std::min_element(result.setups.begin(), result.setups.end(),
-                         [](const SetupResult& a, const SetupResult& b) { return a.limits.block_rows < b.limits.block_rows; });
+    const auto fewest = std::ranges::min_element(
+        result.setups, [](const SetupResult& a, const SetupResult& b) { return a.limits.block_rows < b.limits.block_rows; });
     check_merging(result, common_references(result), fewest->limits);
   }
   // Modes that a person picked stay as they are.

@@ -227,9 +227,8 @@ Conditioned condition_records(const records::Campaign& campaign, const records::
       if (!first) first = lie;
       const std::string& name = lie.place().key;
       const auto& names = group.records.front().channels;
-      const auto responses = std::count_if(names.begin(), names.end(), [&](const std::string& n) {
-        return !campaign.channel(n).is_input && !listed(without.exclude, n);
-      });
+      const auto responses = std::ranges::count_if(
+          names, [&](const std::string& n) { return !campaign.channel(n).is_input && !listed(without.exclude, n); });
       if (campaign.channel(name).reference || listed(config.references, name)) throw;
       if (responses < 2) throw LyingChannel(*first);
       without.exclude.push_back(name);

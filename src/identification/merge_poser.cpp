@@ -103,8 +103,7 @@ std::vector<std::vector<Candidate>> groups(const std::vector<SetupModes>& setups
   for (std::size_t i = 0; i < all.size(); ++i) present[i].insert(all[i].setup);
   for (const Pair& pair : pairs) {
     const std::size_t a = std::min(group[pair.a], group[pair.b]), b = std::max(group[pair.a], group[pair.b]);
-    if (a == b || std::any_of(present[b].begin(), present[b].end(), [&](std::size_t s) { return present[a].contains(s); }))
-      continue;
+    if (a == b || std::ranges::any_of(present[b], [&](std::size_t s) { return present[a].contains(s); })) continue;
     std::replace(group.begin(), group.end(), b, a);
     present[a].merge(present[b]);
   }

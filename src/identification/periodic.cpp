@@ -174,9 +174,8 @@ Eigen::ArrayXd take_out(Samples& record, const PeriodicLine& line, double rate_H
 }
 
 bool is_among(const std::vector<PeriodicLine>& lines, double frequency_Hz, double spread) {
-  return std::any_of(lines.begin(), lines.end(), [&](const PeriodicLine& line) {
-    return std::abs(line.frequency_Hz - frequency_Hz) < spread * frequency_Hz;
-  });
+  return std::ranges::any_of(
+      lines, [&](const PeriodicLine& line) { return std::abs(line.frequency_Hz - frequency_Hz) < spread * frequency_Hz; });
 }
 
 }  // namespace

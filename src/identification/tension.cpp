@@ -38,8 +38,7 @@ Explained explain(const std::vector<Harmonic>& frequencies, const Numbers& numbe
 }
 
 const StayPart& likeliest(const StayPosterior& posterior) {
-  return *std::max_element(posterior.parts.begin(), posterior.parts.end(),
-                           [](const StayPart& a, const StayPart& b) { return a.log_weight < b.log_weight; });
+  return *std::ranges::max_element(posterior.parts, {}, &StayPart::log_weight);
 }
 
 struct Share {
@@ -205,8 +204,7 @@ std::vector<Explained> compared(const std::vector<Harmonic>& frequencies, const 
 }
 
 void most_probable_first(std::vector<Explained>& numberings) {
-  std::stable_sort(numberings.begin(), numberings.end(),
-                   [](const Explained& a, const Explained& b) { return a.log_probability > b.log_probability; });
+  std::ranges::stable_sort(numberings, std::greater{}, &Explained::log_probability);
   std::erase_if(numberings,
                 [&](const Explained& e) { return e.log_probability < numberings.front().log_probability - kWorthComparing; });
 }

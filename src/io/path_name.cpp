@@ -20,8 +20,7 @@ void check_path_name(const std::string& name, const std::string& what, const Pla
   if (name.size() > longest)
     problem = "has " + std::to_string(name.size()) + " bytes, at most " + std::to_string(longest) + " are allowed";
   if (name.starts_with('.')) problem = "is '" + name + "', which begins with a point";
-  if (std::any_of(name.begin(), name.end(), forbidden))
-    problem = "is '" + name + "', which holds a slash or a control character";
+  if (std::ranges::any_of(name, forbidden)) problem = "is '" + name + "', which holds a slash or a control character";
   if (problem.empty()) return;
   throw InputError(place, problem,
                    "files are written under this name: choose another " + what + " name, such as low_with_dampers");

@@ -34,9 +34,8 @@ std::vector<std::string> worse_shapes(const std::vector<ComparisonRow>& comparis
   std::vector<std::string> worse;
   for (const ComparisonRow& after : comparison) {
     if (after.stage != "after" || !after.mac) continue;
-    const auto before = std::find_if(comparison.begin(), comparison.end(), [&](const ComparisonRow& row) {
-      return row.stage == "before" && row.experimental == after.experimental;
-    });
+    const auto before = std::ranges::find_if(
+        comparison, [&](const ComparisonRow& row) { return row.stage == "before" && row.experimental == after.experimental; });
     if (before == comparison.end() || !before->mac || !(*before->mac - *after.mac > lost_mac)) continue;
     if (!(std::abs(after.error_pct()) < std::abs(before->error_pct()))) continue;
     worse.push_back(fmt::format("{}-{} (MAC {:.3f} to {:.2f}, frequency error {:.2f} to {:.2f} %)", after.experimental,

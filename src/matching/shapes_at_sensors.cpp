@@ -107,8 +107,7 @@ std::vector<std::vector<ChannelPart>> placed(const Measured& measured, const Mod
   std::vector<std::vector<ChannelPart>> out(measured.modes.dofs.size());
   for (std::size_t i = 0; i < measured.modes.dofs.size(); ++i) {
     const modal::ShapeDof& dof = measured.modes.dofs[i];
-    const auto found = std::find_if(measured.channels.begin(), measured.channels.end(),
-                                    [&](const Channel& c) { return c.name == dof.direction; });
+    const auto found = std::ranges::find(measured.channels, dof.direction, &Channel::name);
     const Channel* channel = found == measured.channels.end() ? nullptr : &*found;
     const std::size_t node = node_of(points, dof, channel, measured, tolerance_m, doubt);
     Cosines cosine = stated_cosines(dof, channel);

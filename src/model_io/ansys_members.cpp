@@ -156,10 +156,9 @@ std::array<bool, 3> moving_directions(const Builder& builder, long id) {
   const int node = builder.node(id);
   std::array<bool, 3> moves{};
   const auto is_there = [&](const auto& nodes) { return std::find(nodes.begin(), nodes.end(), node) != nodes.end(); };
-  const bool whole =
-      std::any_of(model.elements.begin(), model.elements.end(), [&](const fe::Element& e) { return is_there(e.nodes); }) ||
-      std::any_of(model.links.begin(), model.links.end(),
-                  [&](const fe::RigidLink& l) { return l.master == node || l.slave == node; });
+  const bool whole = std::ranges::any_of(model.elements, [&](const fe::Element& e) { return is_there(e.nodes); }) ||
+                     std::any_of(model.links.begin(), model.links.end(),
+                                 [&](const fe::RigidLink& l) { return l.master == node || l.slave == node; });
   moves.fill(whole);
   for (const fe::Spring& s : model.springs)
     for (std::size_t d = 0; d < 3; ++d)

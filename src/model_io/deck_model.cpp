@@ -126,9 +126,8 @@ std::vector<fe::Constraint::Term> DeckModel::free_terms(const std::vector<fe::Co
   for (int round = 0; round < longest_chain; ++round, now = next) {
     next.clear();
     const auto add = [&](const fe::Constraint::Term& term) {
-      const auto same = std::find_if(next.begin(), next.end(), [&](const fe::Constraint::Term& t) {
-        return t.node == term.node && t.direction == term.direction;
-      });
+      const auto same = std::ranges::find_if(
+          next, [&](const fe::Constraint::Term& t) { return t.node == term.node && t.direction == term.direction; });
       if (same == next.end()) return next.push_back(term);
       same->factor += term.factor;
     };

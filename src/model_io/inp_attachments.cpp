@@ -11,8 +11,7 @@ namespace {
 std::vector<const InpLine*> filled_lines(const InpCard& card) {
   std::vector<const InpLine*> lines;
   for (const InpLine& line : card.data)
-    if (std::any_of(line.fields.begin(), line.fields.end(), [](const std::string& f) { return !f.empty(); }))
-      lines.push_back(&line);
+    if (std::ranges::any_of(line.fields, [](const std::string& f) { return !f.empty(); })) lines.push_back(&line);
   return lines;
 }
 

@@ -72,9 +72,8 @@ std::vector<long> offsets_of(const InpFile& file, const std::vector<IdRange>& ra
     const long scope = turn % count;  // the instances, then the assembly
     const IdRange range = ranges[static_cast<std::size_t>(scope)];
     if (range.last < range.first) continue;
-    const bool overlaps = std::any_of(taken.begin(), taken.end(), [&](const IdRange& other) {
-      return range.first <= other.last && other.first <= range.last;
-    });
+    const bool overlaps = std::ranges::any_of(
+        taken, [&](const IdRange& other) { return range.first <= other.last && other.first <= range.last; });
     if (overlaps && step > largest_kept_apart / count)
       throw InputError({file.path().string(), 0, "*INSTANCE"},
                        fmt::format("the numbers of {} instances, up to {}, cannot be kept apart", count - 1, last),
@@ -104,8 +103,7 @@ void number_scopes(const InpFile& file, InpPlan& plan) {
 /// Walks through the cards and keeps where they stand.
 class Planner {
  public:
-  explicit Planner(const InpFile& file)
-      : file_(file), flat_(std::none_of(file.cards().begin(), file.cards().end(), is_instance)) {
+  explicit Planner(const InpFile& file) : file_(file), flat_(std::ranges::none_of(file.cards(), is_instance)) {
     plan_.scopes.emplace_back();
   }
 

@@ -244,8 +244,7 @@ void read_stage(Parts& parts) {
     wanted = chosen->second;
   }
   if (!wanted) return;
-  const auto found = std::find_if(control.subcases.begin(), control.subcases.end(),
-                                  [&](const Subcase& subcase) { return subcase.id == *wanted; });
+  const auto found = std::ranges::find_if(control.subcases, [&](const Subcase& subcase) { return subcase.id == *wanted; });
   if (found == control.subcases.end())
     statsub.fail(fmt::format("names subcase {}, which the case control does not have", *wanted),
                  "name the static subcase whose loads act");

@@ -174,8 +174,7 @@ void refuse_unknown_channels(const std::vector<Correction>& corrections, const s
                              const std::string& source) {
   for (const Correction& c : corrections) {
     for (const std::string* name : {&c.channel, &c.with}) {
-      if ((name == &c.with && c.action != Action::exchange) || std::find(known.begin(), known.end(), *name) != known.end())
-        continue;
+      if ((name == &c.with && c.action != Action::exchange) || std::ranges::find(known, *name) != known.end()) continue;
       throw InputError({c.place.file, c.place.line, name == &c.with ? "with" : "channel"},
                        fmt::format("'{}' is no channel of {}{}", *name, source, did_you_mean(*name, known)),
                        known.empty() ? "there are no channels, so that nothing can be corrected"

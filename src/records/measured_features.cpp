@@ -56,8 +56,7 @@ matching::Measured assemble_measured(const io::CsvTable& table, const std::vecto
                  "add its frequency, or remove its other rows");
     }
   }
-  std::stable_sort(order.begin(), order.end(),
-                   [&](const auto& a, const auto& b) { return found.at(a).frequency < found.at(b).frequency; });
+  std::ranges::stable_sort(order, [&](const auto& a, const auto& b) { return found.at(a).frequency < found.at(b).frequency; });
   const auto n = static_cast<Index>(order.size());
   modal::ModeSet& modes = measured.modes;
   modes.frequency_Hz = modes.frequency_std_Hz = modes.damping_ratio = modes.damping_ratio_std = Eigen::VectorXd(n);

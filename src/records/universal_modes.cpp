@@ -37,8 +37,7 @@ std::vector<NodalResult> modes_among(const UniversalData& data, const fs::path& 
            "export mode shapes (sets 2411 and 55) from the program that identified them");
   if (modes.size() < data.results.size())
     notes.push_back(fmt::format("{} sets 55 are no modes with a frequency, left out", data.results.size() - modes.size()));
-  std::stable_sort(modes.begin(), modes.end(),
-                   [](const NodalResult& a, const NodalResult& b) { return a.frequency_Hz < b.frequency_Hz; });
+  std::ranges::stable_sort(modes, {}, &NodalResult::frequency_Hz);
   return modes;
 }
 

@@ -37,8 +37,7 @@ fe::Model worn_model(fe::Model model, const std::vector<Wall>& walls, double yea
   for (const fe::Section& section : model.sections) known.push_back(section.name);
   for (const Wall& wall : walls) {
     for (const std::string& name : wall.sections) {
-      const auto at = std::find_if(model.sections.begin(), model.sections.end(),
-                                   [&](const fe::Section& section) { return section.name == name; });
+      const auto at = std::ranges::find(model.sections, name, &fe::Section::name);
       if (at == model.sections.end())
         throw InputError({"", 0, "wall.sections"}, "names '" + name + "', which is no section" + did_you_mean(name, known),
                          "choose among the sections of sections.csv");
@@ -51,9 +50,8 @@ fe::Model worn_model(fe::Model model, const std::vector<Wall>& walls, double yea
 }
 
 fe::Model with_damper_fault(fe::Model model, const std::string& damper, DamperFault fault, double held_stiffness_N_m) {
-  const auto at = std::find_if(model.springs.begin(), model.springs.end(), [&](const fe::Spring& spring) {
-    return spring.name == damper && spring.group.starts_with("damper");
-  });
+  const auto at = std::ranges::find_if(
+      model.springs, [&](const fe::Spring& spring) { return spring.name == damper && spring.group.starts_with("damper"); });
   if (at == model.springs.end()) {
     std::vector<std::string> known;
     for (const fe::Spring& spring : model.springs)

@@ -168,12 +168,10 @@ Calibration for_trial(Calibration calibration, const std::string& trial) {
   const CalibrationTrial chosen = calibration.trials[static_cast<std::size_t>(found - known.begin())];
   calibration.weight = chosen.weight;
   calibration.whole_range_costs = chosen.whole_range_costs;
-  calibration.set = std::find_if(calibration.forms.begin(), calibration.forms.end(), [&](const CalibrationForm& form) {
-                      return form.name == chosen.form;
-                    })->set;
+  calibration.set =
+      std::ranges::find_if(calibration.forms, [&](const CalibrationForm& form) { return form.name == chosen.form; })->set;
   std::erase_if(calibration.values, [&](const CalibrationValue& value) {
-    return std::all_of(value.paths.begin(), value.paths.end(),
-                       [&](const std::string& path) { return calibration.set.contains(path); });
+    return std::ranges::all_of(value.paths, [&](const std::string& path) { return calibration.set.contains(path); });
   });
   return calibration;
 }

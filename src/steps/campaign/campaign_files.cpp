@@ -19,8 +19,7 @@ std::vector<std::string> used_setups(const ponte::CampaignSettings& settings,
                                      const std::vector<sensors::LayoutChannel>& layout) {
   std::vector<std::string> used;
   for (const std::string& name : sensors::setup_names(layout)) {
-    if (std::any_of(settings.records.begin(), settings.records.end(),
-                    [&](const ponte::RecordSettings& r) { return r.setup == name; }))
+    if (std::ranges::any_of(settings.records, [&](const ponte::RecordSettings& r) { return r.setup == name; }))
       used.push_back(name);
   }
   return used;
@@ -111,8 +110,7 @@ void write_campaign_files(const ponte::CampaignSettings& settings, const std::ve
   }
   std::set<std::string> of_stays;
   for (const ponte::StayTest& test : settings.stays) {
-    const bool known = std::any_of(settings.conditions.begin(), settings.conditions.end(),
-                                   [&](const auto& c) { return c.name == test.condition; });
+    const bool known = std::ranges::any_of(settings.conditions, [&](const auto& c) { return c.name == test.condition; });
     if (!known && of_stays.insert(test.condition).second) conditions += fmt::format("\n[{}]\n", test.condition);
   }
   io::write_file_atomically(folder / "conditions.toml", conditions);

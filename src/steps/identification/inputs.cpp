@@ -83,8 +83,7 @@ std::vector<identification::Conditioned> read_kind(const records::Campaign& camp
 /// decays, or else its stays, to show.
 std::string main_kind(const records::Campaign& campaign, const identification::IdentificationSettings& config) {
   const auto has = [&](const std::string& kind) {
-    return std::any_of(campaign.records.begin(), campaign.records.end(),
-                       [&](const records::CampaignRecord& record) { return record.kind == kind; });
+    return std::ranges::any_of(campaign.records, [&](const records::CampaignRecord& record) { return record.kind == kind; });
   };
   const bool others = std::any_of(campaign.records.begin(), campaign.records.end(), [](const records::CampaignRecord& record) {
     return record.kind != "stay" && record.kind != "free_decay";

@@ -15,8 +15,7 @@ namespace twindeck::steps {
 namespace {
 
 bool is_published(const SensitivityConfig& config, const std::string& name) {
-  return std::find(config.published_selection.begin(), config.published_selection.end(), name) !=
-         config.published_selection.end();
+  return std::ranges::find(config.published_selection, name) != config.published_selection.end();
 }
 
 bool is_resolved(const sensitivity::Identifiability& identified, const SensitivityConfig& config, Eigen::Index p) {

@@ -162,14 +162,11 @@ void write_updating_summary(const std::vector<matching::ComparisonRow>& comparis
   csv.row({"cost", best.cost, "-"});
   csv.row({"projected_gradient_relative", best.relative_projected_gradient, "-"});
   csv.row({"starts", result.starts.size(), "-"});
-  csv.row(
-      {"starts_converged",
-       static_cast<long>(std::count_if(result.starts.begin(), result.starts.end(), [](const auto& s) { return s.converged; })),
-       "-"});
+  csv.row({"starts_converged",
+           static_cast<long>(std::ranges::count_if(result.starts, [](const auto& s) { return s.converged; })), "-"});
   csv.row({"distinct_optima", result.optima.size(), "-"});
   csv.row({"parameters_on_bounds",
-           static_cast<long>(std::count_if(result.on_bound.begin(), result.on_bound.end(), [](int side) { return side != 0; })),
-           "-"});
+           static_cast<long>(std::ranges::count_if(result.on_bound, [](int side) { return side != 0; })), "-"});
   csv.row({"smallest_followed_mac", result.followed_mac.minCoeff(), "-"});
   if (result.smooth.theta.size() > 0) {
     csv.row({"smooth_bounds_cost", result.smooth.cost, "-"});

@@ -253,8 +253,7 @@ std::optional<std::filesystem::path> folder_of(const runner::StepContext& contex
 /// @throws InputError  if the campaign is there but has no wind record of a condition that is named
 buffeting::MeasuredRms measured_rms(runner::StepContext& context, const ValidationConfig& config, const fe::Model& model) {
   buffeting::MeasuredRms out;
-  const bool wanted = std::any_of(config.events.begin(), config.events.end(),
-                                  [](const buffeting::WindEvent& e) { return !e.condition.empty(); });
+  const bool wanted = std::ranges::any_of(config.events, [](const buffeting::WindEvent& e) { return !e.condition.empty(); });
   if (!wanted) return out;
   const std::optional<std::filesystem::path> folder = folder_of(context);
   if (!folder) return out;
