@@ -117,12 +117,11 @@ void add_interpolated(const fe::Model& model, const std::string& deck, std::vect
     const CrossSection &a = lines[k], &b = lines[k + 1];
     const double span = b.station - a.station, t = (s - a.station) / span;
     const Eigen::Vector3d along = b.centre - a.centre;
-    AeroNode node;
-    node.deck = deck;
-    node.station_m = s - 0.5 * (first + last);
-    node.length_m = length;
-    node.x_m = a.centre + t * along;
-    node.tangent = ((1.0 - t) * tangent_at(a, along) + t * tangent_at(b, along)).normalized();
+    AeroNode node{.deck = deck,
+                  .station_m = s - 0.5 * (first + last),
+                  .length_m = length,
+                  .x_m = a.centre + t * along,
+                  .tangent = ((1.0 - t) * tangent_at(a, along) + t * tangent_at(b, along)).normalized()};
 
     const int row = 6 * static_cast<int>(out.nodes.size());
     const auto put = [&](int r, int at, int direction, double value) {
@@ -174,9 +173,7 @@ void add_named(const fe::Model& model, const std::string& deck, std::vector<int>
     station[i] = station[i - 1] + (position(model, named[i]) - position(model, named[i - 1])).norm();
   for (std::size_t i = 0; i < named.size(); ++i) {
     const std::size_t before = i == 0 ? 0 : i - 1, after = std::min(i + 1, named.size() - 1);
-    AeroNode node;
-    node.deck = deck;
-    node.station_m = station[i] - 0.5 * station.back();
+    AeroNode node{.deck = deck, .station_m = station[i] - 0.5 * station.back()};
     // Nodes stand in the middle of their lengths, the outermost too: half way to each neighbour, at an end twice the one half.
     node.length_m = (before == i || after == i ? 1.0 : 0.5) * (station[after] - station[before]);
     node.x_m = position(model, named[i]);

@@ -7,12 +7,7 @@ namespace twindeck::aero {
 
 Strip make_strip(const std::string& deck, int section, double station_m, double length_m, const Eigen::Vector3d& x_m,
                  const Eigen::Vector3d& tangent, const Wind& wind) {
-  Strip strip;
-  strip.deck = deck;
-  strip.section = section;
-  strip.station_m = station_m;
-  strip.length_m = length_m;
-  strip.x_m = x_m;
+  Strip strip{.deck = deck, .section = section, .station_m = station_m, .length_m = length_m, .x_m = x_m};
   // The slope of the deck is small: chord, normal and yaw are taken in plan.
   Eigen::Vector3d normal(-tangent.y(), tangent.x(), 0.0);
   normal.normalize();

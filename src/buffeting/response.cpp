@@ -16,10 +16,9 @@ transient::LinearSystem equations_of_motion(const aero::AeroelasticSystem& syste
                                             double frozen_omega_rad_s) {
   const aero::ReducedStructure& structure = system.structure();
   const aero::AeroelasticSystem::Block wind = system.self_excited(speed_m_s, frozen_omega_rad_s);
-  transient::LinearSystem out;
-  out.mass = MatrixXd::Identity(structure.size(), structure.size());
-  out.damping = structure.damping() - wind.damping;
-  out.stiffness = -wind.stiffness;
+  transient::LinearSystem out{.mass = MatrixXd::Identity(structure.size(), structure.size()),
+                              .damping = structure.damping() - wind.damping,
+                              .stiffness = -wind.stiffness};
   out.stiffness.diagonal() += structure.omega_rad_s.cwiseAbs2();
   for (const aero::MaxwellUnit& unit : structure.maxwell)
     transient::add_maxwell(out, unit.direction, unit.stiffness_N_m, unit.damping_N_s_m);

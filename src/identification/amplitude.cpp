@@ -148,14 +148,12 @@ std::vector<AmplitudePoint> decay_by_amplitude(const Eigen::VectorXcd& coordinat
     const FittedLine decay =
         fitted_line(envelope.segment(from, to - from).array().log().matrix(), 1.0 / rate_Hz, static_cast<double>(memory));
     const double omega = std::hypot(turning.slope, decay.slope);
-    AmplitudePoint point;
-    point.amplitude = envelope.segment(from, to - from).mean();
-    point.frequency_Hz = omega / (2.0 * pi);
-    point.frequency_std_Hz = turning.deviation / (2.0 * pi);
-    point.damping_ratio = -decay.slope / omega;
-    point.damping_ratio_std = decay.deviation / omega;
-    point.seconds = static_cast<double>(to - from) / rate_Hz;
-    points.push_back(point);
+    points.push_back({.amplitude = envelope.segment(from, to - from).mean(),
+                      .frequency_Hz = omega / (2.0 * pi),
+                      .frequency_std_Hz = turning.deviation / (2.0 * pi),
+                      .damping_ratio = -decay.slope / omega,
+                      .damping_ratio_std = decay.deviation / omega,
+                      .seconds = static_cast<double>(to - from) / rate_Hz});
   }
   return points;
 }

@@ -22,9 +22,7 @@ FollowedModes ModeFollower::follow(const Eigen::Ref<const Eigen::MatrixXd>& shap
 
 FollowedModes follow_normalised(const Eigen::MatrixXd& mass_reference, const Eigen::MatrixXd& shapes) {
   const Eigen::MatrixXd mac = modal::mass_weighted_mac(mass_reference, shapes);
-  FollowedModes followed;
-  followed.position = matching::follow_modes(mac);
-  followed.mac = Eigen::VectorXd::Zero(mac.rows());
+  FollowedModes followed{.position = matching::follow_modes(mac), .mac = Eigen::VectorXd::Zero(mac.rows())};
   for (Eigen::Index i = 0; i < mac.rows(); ++i) {
     const int j = followed.position[static_cast<std::size_t>(i)];
     if (j >= 0) followed.mac(i) = mac(i, j);

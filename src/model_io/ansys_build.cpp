@@ -107,10 +107,9 @@ int Builder::material(const Member& member, long id, bool isotropic) {
   };
   if (known == parts.materials.end() || property("EX", 0.0) <= 0.0)
     fail(member, fmt::format("its material {} has no modulus above 0", id), "give MP,EX,number,value");
-  fe::Material m;
-  m.name = fmt::format("mat_{}", id);
-  m.youngs_modulus_Pa = property("EX", 0.0);
-  m.poisson_ratio = property("PRXY", property("NUXY", 0.3));
+  fe::Material m{.name = fmt::format("mat_{}", id),
+                 .youngs_modulus_Pa = property("EX", 0.0),
+                 .poisson_ratio = property("PRXY", property("NUXY", 0.3))};
   const long line = known->second.at("EX").line;
   const double reference_K = parts.stage ? parts.stage->reference_K : 0.0;
   DeckModel::check_poisson_ratio(parts.at(line, m.name), m.poisson_ratio);

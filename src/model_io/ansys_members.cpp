@@ -223,9 +223,7 @@ void add_mass(Builder& builder, const Member& member) {
   const RealSet& r = builder.reals(member);
   const long id = member.element.nodes[0], shape = member.definition.option(3);
   std::array<double, 3> masses = {r.at(1), r.at(1), r.at(1)};
-  fe::PointMass mass;
-  mass.group = builder.group(member, fmt::format("real_{}", member.element.real));
-  mass.node = builder.node(id);
+  fe::PointMass mass{.group = builder.group(member, fmt::format("real_{}", member.element.real)), .node = builder.node(id)};
   if (shape == 0) {
     masses = {r.at(1), r.at(2), r.at(3)};
     mass.inertia_kg_m2 = {r.at(4), r.at(5), r.at(6)};

@@ -36,9 +36,9 @@ struct Option {
   long value = 0, line = 0;
 };
 struct TypeDefinition {
-  std::string name;                   ///< as written
-  const ElementType* type = nullptr;  ///< null: not read, which matters once an element is of it
-  std::map<int, Option> options;      ///< KEYOPT
+  std::string name;                    ///< as written
+  const ElementType* type = nullptr;   ///< null: not read, which matters once an element is of it
+  std::map<int, Option> options = {};  ///< KEYOPT
   long line = 0;
   [[nodiscard]] long option(int number) const {
     const auto found = options.find(number);

@@ -51,10 +51,7 @@ SectionDefinition& current_section(Parts& parts, const Command& command) {
 void read_type(Parts& parts, const Command& command) {
   const long id = command.integer(0);
   if (command.blank(1)) command.fail("names no element type", "write ET,number,name, for example ET,1,SHELL181");
-  TypeDefinition definition;
-  definition.name = command.fields[1];
-  definition.type = element_type(command.word(1));
-  definition.line = command.line;
+  TypeDefinition definition{.name = command.fields[1], .type = element_type(command.word(1)), .line = command.line};
   for (std::size_t i = 0; i < options_of_et; ++i)
     if (!command.blank(i + 2)) definition.options[static_cast<int>(i) + 1] = {command.integer(i + 2), command.line};
   parts.types[id] = definition;

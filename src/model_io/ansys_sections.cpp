@@ -114,10 +114,7 @@ fe::Section general_section(const Builder& builder, const Member& member, const 
   if (std::hypot(at(8) - at(6), at(9) - at(7)) > beside * std::sqrt(at(0)))
     refuse_section(builder, member, section, "has a shear centre beside its centroid, which is not supported",
                    "put both at one place, or model the section by shells");
-  fe::Section s;
-  s.area_m2 = at(0);
-  s.inertia_y_m4 = at(1);
-  s.inertia_yz_m4 = at(2);
+  fe::Section s{.name = {}, .area_m2 = at(0), .inertia_y_m4 = at(1), .inertia_yz_m4 = at(2)};
   s.inertia_z_m4 = at(3);
   s.torsion_m4 = at(5);
   s.shear_area_z_m2 = s.area_m2 * (at(12) > 0.0 ? at(12) : 1.0);

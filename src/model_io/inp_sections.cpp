@@ -228,17 +228,14 @@ void assign_general_beam(InpParts& parts, const InpCard& card) {
   if (upper_case(card.get("SECTION", "GENERAL")) != "GENERAL")
     card.fail("only SECTION=GENERAL is supported on this card", "profiles go on *BEAM SECTION");
   const InpLine& line = card.line_of(0, "A, I11, I12, I22, J");
-  fe::Section s;
-  s.area_m2 = above_zero(line, 0);
-  s.inertia_y_m4 = above_zero(line, 1);
-  s.inertia_yz_m4 = line.number_or(2, 0.0);
+  fe::Section s{
+      .name = {}, .area_m2 = above_zero(line, 0), .inertia_y_m4 = above_zero(line, 1), .inertia_yz_m4 = line.number_or(2, 0.0)};
   s.inertia_z_m4 = above_zero(line, 3);
   s.torsion_m4 = above_zero(line, 4);
   const InpLine& moduli = card.line_of(2, "E and G");
-  fe::Material m;
-  m.name = parts.set(parts.element_sets, card, card.required("ELSET")).name;
-  m.youngs_modulus_Pa = above_zero(moduli, 0);
-  m.shear_modulus_Pa = above_zero(moduli, 1);
+  fe::Material m{.name = parts.set(parts.element_sets, card, card.required("ELSET")).name,
+                 .youngs_modulus_Pa = above_zero(moduli, 0),
+                 .shear_modulus_Pa = above_zero(moduli, 1)};
   m.poisson_ratio = std::clamp(m.youngs_modulus_Pa / (2.0 * m.shear_modulus_Pa) - 1.0, -0.99, 0.499);
   if (card.has("DENSITY")) m.density_kg_m3 = card.value("DENSITY").number(0);
   if (const InpCard* shear = parts.card_after(card); shear != nullptr && shear->keyword == "TRANSVERSE SHEAR STIFFNESS") {

@@ -173,9 +173,7 @@ std::vector<Eigen::Matrix3d> Facet::motion(const Foot& foot, const Eigen::Vector
 }
 
 Facet make_facet(const InpParts& parts, const DeckPlace& at, const InpFacet& facet) {
-  Facet made;
-  made.turning = facet.turning;
-  made.middle_m = Eigen::Vector3d::Zero();
+  Facet made{.turning = facet.turning, .middle_m = Eigen::Vector3d::Zero()};
   for (const long id : facet.nodes) {
     made.nodes.push_back(parts.node(at, id));
     made.x_m.push_back(parts.place(made.nodes.back()));

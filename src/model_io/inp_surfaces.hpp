@@ -22,8 +22,8 @@ struct Foot {
 
 /// A facet with its nodes' positions in the model: bilinear with 4 nodes, flat with 3, straight with 2.
 struct Facet {
-  std::vector<int> nodes;
-  std::vector<Eigen::Vector3d> x_m;
+  std::vector<int> nodes = {};
+  std::vector<Eigen::Vector3d> x_m = {};
   bool turning = false;
   Eigen::Vector3d middle_m;
   double radius_m = 0.0;  ///< about the middle, holds all nodes

@@ -129,12 +129,7 @@ void add_mass(Parts& parts, const std::string& name, int node, const MassMatrix&
   const MassMatrix rest = m - MassMatrix(m.diagonal().asDiagonal());
   const bool one_mass = std::abs(m(0, 0) - m(1, 1)) <= small && std::abs(m(0, 0) - m(2, 2)) <= small;
   if (!one_mass || rest.cwiseAbs().maxCoeff() > small) return add_matrix(parts, name, {node}, {}, m);
-  fe::PointMass mass;
-  mass.group = name;
-  mass.node = node;
-  mass.mass_kg = m(0, 0);
-  mass.inertia_kg_m2 = m.diagonal().tail<3>();
-  parts.model.masses.push_back(mass);
+  parts.model.masses.push_back({.group = name, .node = node, .mass_kg = m(0, 0), .inertia_kg_m2 = m.diagonal().tail<3>()});
 }
 
 /// The lower half of a symmetric matrix, row by row from field `first` on.

@@ -18,9 +18,7 @@ constexpr std::size_t longest_chain = 100;  ///< of systems defined in one anoth
 
 /// Axes from the origin a, a point b on z and a point c in the x-z plane.
 System from_points(const Card& card, const std::array<Eigen::Vector3d, 3>& p) {
-  System s;
-  s.type = card.name.back();
-  s.origin = p[0];
+  System s{.type = card.name.back(), .origin = p[0]};
   const Eigen::Vector3d z = p[1] - p[0], y = z.cross(p[2] - p[0]);
   if (!(y.norm() > 1e-9 * z.norm() * (p[2] - p[0]).norm()))
     card.fail("its three points lie on one line", "give the origin, a point on z, a point in the x-z plane");

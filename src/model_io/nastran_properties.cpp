@@ -20,10 +20,7 @@ struct Station {
 };
 
 fe::Section to_section(const std::string& name, const Station& s, double k1, double k2) {
-  fe::Section section;
-  section.name = name;
-  section.area_m2 = s.value[0];
-  section.inertia_z_m4 = s.value[1];
+  fe::Section section{.name = name, .area_m2 = s.value[0], .inertia_z_m4 = s.value[1]};
   section.inertia_y_m4 = s.value[2];
   section.inertia_yz_m4 = s.value[3];
   section.torsion_m4 = s.value[4];

@@ -153,11 +153,7 @@ Shape rectangles(const std::vector<std::array<double, 4>>& sides) {
 }
 
 Shape circle(double radius, double inner) {
-  Shape shape;
-  shape.radius = radius;
-  shape.inner = inner;
-  shape.fits = radius > 0.0 && inner >= 0.0 && inner < radius;
-  return shape;
+  return Shape{.radius = radius, .inner = inner, .fits = radius > 0.0 && inner >= 0.0 && inner < radius};
 }
 
 double bredt(double area, double around, double area2, double around2, double common) {

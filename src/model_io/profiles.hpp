@@ -25,11 +25,11 @@ struct Shape {
     Eigen::Vector2d from, to;
     double thickness = 0.0;
   };
-  std::vector<Wall> walls;               ///< do not overlap
-  std::vector<Eigen::Vector2d> outline;  ///< corners of a convex polygon in order
-  double radius = 0.0, inner = 0.0;      ///< of a circle and its hole
-  double closed_torsion = 0.0;           ///< of the cells that the walls enclose; 0: the section is open
-  bool fits = true;                      ///< no dimension is negative, no wall lies inside out
+  std::vector<Wall> walls = {};               ///< do not overlap
+  std::vector<Eigen::Vector2d> outline = {};  ///< corners of a convex polygon in order
+  double radius = 0.0, inner = 0.0;           ///< of a circle and its hole
+  double closed_torsion = 0.0;                ///< of the cells that the walls enclose; 0: the section is open
+  bool fits = true;                           ///< no dimension is negative, no wall lies inside out
 };
 
 /// Rectangles by their left, lower, right and upper sides. One without width or height is left out.

@@ -278,12 +278,11 @@ void read_sections(const std::filesystem::path& folder, fe::Model& model, NameIn
                                         {"area_m2", "inertia_y_m4", "inertia_z_m4", "inertia_yz_m4", "torsion_m4",
                                          "shear_area_y_m2", "shear_area_z_m2", "thickness_m", "bending_inertia_ratio"});
   for (std::size_t row = 0; row < table.rows(); ++row) {
-    fe::Section s;
-    s.name = unique_name(table, row, "section", index.sections);
-    s.area_m2 = at_least_zero(table, row, "area_m2", 0.0);
-    s.inertia_y_m4 = at_least_zero(table, row, "inertia_y_m4", 0.0);
-    s.inertia_z_m4 = at_least_zero(table, row, "inertia_z_m4", 0.0);
-    s.inertia_yz_m4 = table.number_or(row, "inertia_yz_m4", 0.0);
+    fe::Section s{.name = unique_name(table, row, "section", index.sections),
+                  .area_m2 = at_least_zero(table, row, "area_m2", 0.0),
+                  .inertia_y_m4 = at_least_zero(table, row, "inertia_y_m4", 0.0),
+                  .inertia_z_m4 = at_least_zero(table, row, "inertia_z_m4", 0.0),
+                  .inertia_yz_m4 = table.number_or(row, "inertia_yz_m4", 0.0)};
     if (s.inertia_yz_m4 * s.inertia_yz_m4 > s.inertia_y_m4 * s.inertia_z_m4) {
       table.fail(row, "inertia_yz_m4", "is larger than sqrt(inertia_y inertia_z), which no section can have",
                  "check the three second moments of area");
@@ -390,9 +389,7 @@ void read_masses(const std::filesystem::path& folder, fe::Model& model, const Na
   const auto table = io::CsvTable::read(folder / "masses.csv", {"node", "mass_kg"},
                                         {"group", "inertia_x_kg_m2", "inertia_y_kg_m2", "inertia_z_kg_m2"});
   for (std::size_t row = 0; row < table.rows(); ++row) {
-    fe::PointMass mass;
-    mass.group = table.text(row, "group");
-    mass.node = index.node(table, row, "node");
+    fe::PointMass mass{.group = table.text(row, "group"), .node = index.node(table, row, "node")};
     require_one(table, row, {"mass_kg", "inertia_x_kg_m2", "inertia_y_kg_m2", "inertia_z_kg_m2"},
                 "fill the mass; write 0 for none");
     mass.mass_kg = not_negative(table, row, "mass_kg");

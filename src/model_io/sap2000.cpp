@@ -253,10 +253,7 @@ class SapReader {
     if (const auto known = materials_.find(name); known != materials_.end()) return known->second;
     const SapRow& row = row_of(section, "MATERIAL PROPERTIES 02 - BASIC MECHANICAL PROPERTIES", "Material", name);
     if (row.has("E2")) row.fail("is not isotropic, which is not read", "give E1, G12 and U12 of an isotropic material");
-    fe::Material m;
-    m.name = name;
-    m.youngs_modulus_Pa = row.number_of("E1");
-    m.poisson_ratio = row.number_of("U12", 0.0);
+    fe::Material m{.name = name, .youngs_modulus_Pa = row.number_of("E1"), .poisson_ratio = row.number_of("U12", 0.0)};
     m.shear_modulus_Pa = row.number_of("G12", m.youngs_modulus_Pa / (2.0 * (1.0 + m.poisson_ratio)));
     m.density_kg_m3 = row.number_of("UnitMass", 0.0);
     DeckModel::check_poisson_ratio(row, m.poisson_ratio);
@@ -408,9 +405,7 @@ class SapReader {
       const double bending = section.number_of("M11Mod", 1.0);
       if (section.number_of("M22Mod", 1.0) != bending || section.number_of("M12Mod", 1.0) != bending || !(bending > 0.0))
         section.fail("M11Mod, M22Mod and M12Mod are not one number above 0", "give one factor of bending");
-      fe::Section s;
-      s.name = section.get("Section");
-      s.thickness_m = section.number_of("Thickness");
+      fe::Section s{.name = section.get("Section"), .thickness_m = section.number_of("Thickness")};
       if (!(s.thickness_m > 0.0)) section.fail("the thickness is not above 0", "give it");
       s.bending_inertia_ratio = bending * std::pow(section.number_of("BendThick", s.thickness_m) / s.thickness_m, 3);
       fe::Element e = element(row, "Area", fe::ElementType::shell, section);

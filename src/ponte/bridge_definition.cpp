@@ -26,9 +26,7 @@ constexpr Range kMassPerLength{0.0, 1e5};  // [kg/m]
 const fe::Material kRigid{"rigid", 1e13, 1e13 / 2.6, 0.3, 0.0};
 
 fe::Section round_section(const std::string& name, double outer_m, double inner_m, double shear_factor) {
-  fe::Section out;
-  out.name = name;
-  out.area_m2 = std::numbers::pi / 4 * (std::pow(outer_m, 2) - std::pow(inner_m, 2));
+  fe::Section out{.name = name, .area_m2 = std::numbers::pi / 4 * (std::pow(outer_m, 2) - std::pow(inner_m, 2))};
   out.inertia_y_m4 = out.inertia_z_m4 = std::numbers::pi / 64 * (std::pow(outer_m, 4) - std::pow(inner_m, 4));
   out.torsion_m4 = 2 * out.inertia_y_m4;
   out.shear_area_y_m2 = out.shear_area_z_m2 = shear_factor * out.area_m2;
@@ -46,9 +44,7 @@ void check_wall(DefinitionFile& file, const std::string& path, double width_m, d
 /// of four walls).
 fe::Section square_hollow_section(const std::string& name, double side_m, double wall_m) {
   const double inner = side_m - 2 * wall_m;
-  fe::Section out;
-  out.name = name;
-  out.area_m2 = side_m * side_m - inner * inner;
+  fe::Section out{.name = name, .area_m2 = side_m * side_m - inner * inner};
   out.inertia_y_m4 = out.inertia_z_m4 = (std::pow(side_m, 4) - std::pow(inner, 4)) / 12;
   out.torsion_m4 = wall_m * std::pow(side_m - wall_m, 3);
   out.shear_area_y_m2 = out.shear_area_z_m2 = 0.5 * out.area_m2;
@@ -77,12 +73,11 @@ fe::Section solid_circle_section(const std::string& name, double diameter_m) {
 /// (Roark), shear areas 5/6 A.
 fe::Section rectangle_section(const std::string& name, double depth_m, double width_m) {
   const double b = std::max(depth_m, width_m), t = std::min(depth_m, width_m);
-  fe::Section out;
-  out.name = name;
-  out.area_m2 = depth_m * width_m;
-  out.inertia_y_m4 = width_m * std::pow(depth_m, 3) / 12;
-  out.inertia_z_m4 = depth_m * std::pow(width_m, 3) / 12;
-  out.torsion_m4 = b * std::pow(t, 3) * (1.0 / 3 - 0.21 * t / b * (1 - std::pow(t / b, 4) / 12));
+  fe::Section out{.name = name,
+                  .area_m2 = depth_m * width_m,
+                  .inertia_y_m4 = width_m * std::pow(depth_m, 3) / 12,
+                  .inertia_z_m4 = depth_m * std::pow(width_m, 3) / 12,
+                  .torsion_m4 = b * std::pow(t, 3) * (1.0 / 3 - 0.21 * t / b * (1 - std::pow(t / b, 4) / 12))};
   out.shear_area_y_m2 = out.shear_area_z_m2 = out.area_m2 * 5 / 6;
   return out;
 }
@@ -93,14 +88,13 @@ fe::Section read_member_section(DefinitionFile& file, const std::string& path, c
   const std::string shape = file.choice(path + ".shape", {"tube", "square_hollow", "rolled"});
   const double scale = file.number(path + ".scale", "", {1e-3, 1e3});
   if (shape == "rolled") {
-    fe::Section out;
-    out.name = name;
-    out.area_m2 = file.number(path + ".area", "m2", {1e-6, 10.0});
-    out.inertia_y_m4 = file.number(path + ".inertia_y", "m4", {1e-12, 10.0});
-    out.inertia_z_m4 = file.number(path + ".inertia_z", "m4", {1e-12, 10.0});
-    out.torsion_m4 = file.number(path + ".torsion", "m4", {1e-12, 10.0});
-    out.shear_area_y_m2 = file.number(path + ".shear_area_y", "m2", {0.0, 10.0});
-    out.shear_area_z_m2 = file.number(path + ".shear_area_z", "m2", {0.0, 10.0});
+    fe::Section out{.name = name,
+                    .area_m2 = file.number(path + ".area", "m2", {1e-6, 10.0}),
+                    .inertia_y_m4 = file.number(path + ".inertia_y", "m4", {1e-12, 10.0}),
+                    .inertia_z_m4 = file.number(path + ".inertia_z", "m4", {1e-12, 10.0}),
+                    .torsion_m4 = file.number(path + ".torsion", "m4", {1e-12, 10.0}),
+                    .shear_area_y_m2 = file.number(path + ".shear_area_y", "m2", {0.0, 10.0}),
+                    .shear_area_z_m2 = file.number(path + ".shear_area_z", "m2", {0.0, 10.0})};
     return scaled(out, scale);
   }
   const double width = file.number(path + (shape == "tube" ? ".diameter" : ".side"), "m", {1e-3, 10.0});
@@ -111,10 +105,9 @@ fe::Section read_member_section(DefinitionFile& file, const std::string& path, c
 
 fe::Material read_material(DefinitionFile& file, const std::string& name) {
   const std::string path = "material." + name;
-  fe::Material out;
-  out.name = name;
-  out.youngs_modulus_Pa = file.number(path + ".youngs_modulus", "Pa", kModulus);
-  out.poisson_ratio = file.number(path + ".poisson_ratio", "", {0.0, 0.49});
+  fe::Material out{.name = name,
+                   .youngs_modulus_Pa = file.number(path + ".youngs_modulus", "Pa", kModulus),
+                   .poisson_ratio = file.number(path + ".poisson_ratio", "", {0.0, 0.49})};
   out.shear_modulus_Pa = out.youngs_modulus_Pa / (2.0 * (1.0 + out.poisson_ratio));
   out.density_kg_m3 = file.number(path + ".density", "kg/m3", kDensity);
   return out;
@@ -127,17 +120,15 @@ StayType read_stay_type(DefinitionFile& file, const std::string& name) {
 }
 
 StayRow read_stay_row(DefinitionFile& file, const std::string& path, const std::vector<std::string>& types) {
-  StayRow out;
-  out.count = static_cast<int>(file.integer(path + ".count", 2, 50));
-  out.spacing_m = file.number(path + ".spacing", "m", kLength);
-  out.last_spacing_m = file.number(path + ".last_spacing", "m", kLength);
-  out.prefix_north = file.text(path + ".prefix_north");
-  out.prefix_south = file.text(path + ".prefix_south");
-  out.type = file.choice(path + ".type", types);
-  out.last_type = file.choice(path + ".last_type", types);
-  out.top_anchor_z_m = file.number(path + ".top_anchor_z", "m", kCoordinate);
-  out.anchor_pitch_m = file.number(path + ".anchor_pitch", "m", kLength);
-  return out;
+  return StayRow{.count = static_cast<int>(file.integer(path + ".count", 2, 50)),
+                 .spacing_m = file.number(path + ".spacing", "m", kLength),
+                 .last_spacing_m = file.number(path + ".last_spacing", "m", kLength),
+                 .prefix_north = file.text(path + ".prefix_north"),
+                 .prefix_south = file.text(path + ".prefix_south"),
+                 .type = file.choice(path + ".type", types),
+                 .last_type = file.choice(path + ".last_type", types),
+                 .top_anchor_z_m = file.number(path + ".top_anchor_z", "m", kCoordinate),
+                 .anchor_pitch_m = file.number(path + ".anchor_pitch", "m", kLength)};
 }
 
 std::vector<SlabZone> read_slab(DefinitionFile& file, const std::string& deck, const std::vector<std::string>& materials) {

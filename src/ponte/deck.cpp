@@ -130,11 +130,9 @@ void build_nonstructural_mass(ModelBuilder& builder, const DeckDefinition& deck,
     const double before = k > 0 ? lines[k].s_m - lines[k - 1].s_m : 0.0;
     const double after = k + 1 < lines.size() ? lines[k + 1].s_m - lines[k].s_m : 0.0;
     for (const int node : {lines[k].across.front(), lines[k].across.back()}) {
-      fe::PointMass mass;
-      mass.group = deck.name + "_nonstructural_mass";
-      mass.node = node;
-      mass.mass_kg = deck.nonstructural_mass_kg_m * (before + after) / 4;
-      builder.model.masses.push_back(mass);
+      builder.model.masses.push_back({.group = deck.name + "_nonstructural_mass",
+                                      .node = node,
+                                      .mass_kg = deck.nonstructural_mass_kg_m * (before + after) / 4});
     }
   }
 }
@@ -165,10 +163,8 @@ DeckNodes build_deck(ModelBuilder& builder, const DeckDefinition& deck, const Me
        {deck.top_chord, deck.bottom_chord, deck.short_diagonal, deck.long_diagonal, deck.floor_beam})
     builder.add_section(section);
   for (const SlabZone& zone : deck.slab) {
-    fe::Section section;
-    section.name = zone.group;
-    section.thickness_m = zone.thickness_m;
-    section.bending_inertia_ratio = zone.bending_inertia_ratio;
+    fe::Section section{
+        .name = zone.group, .thickness_m = zone.thickness_m, .bending_inertia_ratio = zone.bending_inertia_ratio};
     builder.add_section(section);
   }
   DeckNodes nodes = build_nodes(builder, deck, mesh);

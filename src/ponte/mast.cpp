@@ -57,11 +57,7 @@ MastNodes build_mast(ModelBuilder& builder, const BridgeDefinition& definition) 
     if (above->first <= mast.infill_z_m + kSameHeight_m)
       builder.add_element(fe::ElementType::beam, "mast_infill", "concrete_normal", nodes, Eigen::Vector3d::UnitX());
   }
-  fe::PointMass head;
-  head.group = "mast_head_mass";
-  head.node = out.top();
-  head.mass_kg = mast.head_mass_kg;
-  builder.model.masses.push_back(head);
+  builder.model.masses.push_back({.group = "mast_head_mass", .node = out.top(), .mass_kg = mast.head_mass_kg});
   builder.model.supports.push_back({"mast", out.by_z.begin()->second, {true, true, true, true, true, true}});
   return out;
 }
@@ -69,16 +65,12 @@ MastNodes build_mast(ModelBuilder& builder, const BridgeDefinition& definition) 
 void build_stays(ModelBuilder& builder, const BridgeDefinition& definition, const std::map<std::string, DeckNodes>& decks,
                  const MastNodes& mast) {
   for (const StayType& type : definition.stay_types) {
-    fe::Material material;
-    material.name = "stay_steel_" + type.name;
-    material.youngs_modulus_Pa = type.youngs_modulus_Pa;
+    fe::Material material{.name = "stay_steel_" + type.name, .youngs_modulus_Pa = type.youngs_modulus_Pa};
     material.poisson_ratio = 0.3;  // no part in a bar; completes the data
     material.shear_modulus_Pa = type.youngs_modulus_Pa / 2.6;
     material.density_kg_m3 = type.mass_per_length_kg_m / type.area_m2;
     builder.add_material(material);
-    fe::Section section;
-    section.name = "stay_" + type.name;
-    section.area_m2 = type.area_m2;
+    fe::Section section{.name = "stay_" + type.name, .area_m2 = type.area_m2};
     builder.add_section(section);
   }
   for (const DeckDefinition& deck : definition.decks) {

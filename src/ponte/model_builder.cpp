@@ -25,25 +25,23 @@ int ModelBuilder::add_section(const fe::Section& section) {
 
 void ModelBuilder::add_element(fe::ElementType type, const std::string& section, const std::string& material,
                                std::vector<int> nodes, const Eigen::Vector3d& orientation) {
-  fe::Element element;
-  element.id = static_cast<long>(model.elements.size()) + 1;
-  element.type = type;
-  element.group = section;
-  element.material = materials_.at(material);
-  element.section = sections_.at(section);
-  element.nodes = std::move(nodes);
-  element.orientation = orientation;
-  model.elements.push_back(std::move(element));
+  model.elements.push_back({.id = static_cast<long>(model.elements.size()) + 1,
+                            .type = type,
+                            .name = {},
+                            .group = section,
+                            .material = materials_.at(material),
+                            .section = sections_.at(section),
+                            .nodes = std::move(nodes),
+                            .orientation = orientation});
 }
 
 void ModelBuilder::add_solid(const std::string& group, const std::string& material, std::vector<int> nodes) {
-  fe::Element element;
-  element.id = static_cast<long>(model.elements.size()) + 1;
-  element.type = fe::ElementType::solid;
-  element.group = group;
-  element.material = materials_.at(material);
-  element.nodes = std::move(nodes);
-  model.elements.push_back(std::move(element));
+  model.elements.push_back({.id = static_cast<long>(model.elements.size()) + 1,
+                            .type = fe::ElementType::solid,
+                            .name = {},
+                            .group = group,
+                            .material = materials_.at(material),
+                            .nodes = std::move(nodes)});
 }
 
 void ModelBuilder::add_member(const std::string& section, int from, int to, int pieces, const Eigen::Vector3d& orientation,
@@ -59,14 +57,8 @@ void ModelBuilder::add_member(const std::string& section, int from, int to, int 
 
 void ModelBuilder::add_spring(const std::string& group, const std::string& name, int node, const Eigen::Vector3d& direction,
                               double stiffness_N_m, int node2) {
-  fe::Spring spring;
-  spring.name = name;
-  spring.group = group;
-  spring.node = node;
-  spring.node2 = node2;
-  spring.direction = direction;
-  spring.stiffness = stiffness_N_m;
-  model.springs.push_back(spring);
+  model.springs.push_back(
+      {.name = name, .group = group, .node = node, .node2 = node2, .direction = direction, .stiffness = stiffness_N_m});
 }
 
 }  // namespace twindeck::ponte

@@ -158,10 +158,9 @@ void build_dampers(ModelBuilder& builder, const BridgeDefinition& definition, co
   for (const DamperDefinition& damper : definition.dampers) {
     for (const DeckPoint& unit : damper.units) {
       const DeckNodes::Line& line = decks.at(unit.deck).station_near(unit.s_m);
-      fe::Spring spring;
-      spring.name = unit.name;
-      spring.group = "damper_" + damper.type;
-      spring.node = unit.outer_edge ? line.across.back() : line.across.front();
+      fe::Spring spring{.name = unit.name,
+                        .group = "damper_" + damper.type,
+                        .node = unit.outer_edge ? line.across.back() : line.across.front()};
       for (const DeckDefinition& deck : definition.decks)
         if (deck.name == unit.deck && !damper.vertical) spring.direction = DeckAxis(deck).radial(line.s_m);
       spring.stiffness = damper.stiffness_N_m;

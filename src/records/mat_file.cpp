@@ -329,10 +329,7 @@ MatFile level_5(const fs::path& file, std::uint64_t size) {
     if (bytes > size - at - 8)
       fail(fmt::format("breaks off in variable number {}: {} of its {} bytes are there", number, size - at - 8, bytes));
     if (type == kMatrix || type == kCompressed) {
-      MatArray part;
-      part.offset = at + 8;
-      part.length = bytes;
-      part.compressed = type == kCompressed;
+      MatArray part{.shape = {}, .offset = at + 8, .length = bytes, .compressed = type == kCompressed};
       Variable(mat, part, number).read();
     }
     source.skip(bytes, "a variable");

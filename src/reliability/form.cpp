@@ -105,11 +105,7 @@ class Search {
   }
 
   DesignPoint point(const VectorXd& u, const VectorXd& down) const {
-    DesignPoint out;
-    out.u = u;
-    out.beta = (origin_ > 0.0 ? 1.0 : -1.0) * u.norm();
-    out.alpha = down;
-    return out;
+    return DesignPoint{.u = u, .beta = (origin_ > 0.0 ? 1.0 : -1.0) * u.norm(), .alpha = down};
   }
 
   const LimitState& g_;

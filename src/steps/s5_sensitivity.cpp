@@ -18,9 +18,7 @@ Status run(const steps::SensitivityConfig& config, const dynamics::ReadModel& re
   if (!loaded.state.status.converged) return loaded.state.status;
 
   // 2. Sensitivities three ways: exact, by extrapolated central differences, by Eq. (6).
-  sensitivity::SensitivityOptions options;
-  options.n_modes = static_cast<int>(config.n_modes);
-  options.forward_step = config.forward_step;
+  sensitivity::SensitivityOptions options{.n_modes = static_cast<int>(config.n_modes), .forward_step = config.forward_step};
   const sensitivity::Sensitivities found = sensitivity::frequency_sensitivities(
       loaded.system, loaded.theta, options, [&](int done, int of) { context.progress("differences", done, of); });
   if (found.frequency_Hz.size() == 0) return found.status;

@@ -18,10 +18,7 @@ Search without(const Search& search, std::size_t target) {
 
 LeftOut predicted(const Search& search, std::size_t target, const SearchEnd& end) {
   const auto at = static_cast<Eigen::Index>(target);
-  LeftOut out;
-  out.theta = end.result.theta;
-  out.cost = end.result.cost;
-  out.converged = end.result.converged;
+  LeftOut out{.theta = end.result.theta, .cost = end.result.cost, .converged = end.result.converged};
   if (!end.evaluation.valid) return out;
   out.frequency_Hz = end.evaluation.frequency_Hz(at);
   out.followed_mac = end.evaluation.mac(at);

@@ -8,11 +8,9 @@ namespace twindeck::updating {
 namespace {
 
 matching::PairingOptions pairing_options(const UpdatingSettings& config) {
-  matching::PairingOptions options;
-  options.minimum_mac = config.minimum_mac;
-  options.maximum_frequency_error = config.maximum_frequency_error;
-  options.cluster_gap = config.cluster_gap;
-  return options;
+  return matching::PairingOptions{.minimum_mac = config.minimum_mac,
+                                  .maximum_frequency_error = config.maximum_frequency_error,
+                                  .cluster_gap = config.cluster_gap};
 }
 
 }  // namespace

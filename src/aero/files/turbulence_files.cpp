@@ -76,10 +76,8 @@ wind::TurbulenceSet read_turbulence_set(const std::filesystem::path& file, const
       if (!(value > 0.0)) table.fail(row, column, fmt::format("is {}, expected a positive number", value));
       return value;
     };
-    wind::TurbulenceSet set;
-    set.name = name;
-    set.roughness_m = positive("roughness_m");
-    set.minimum_height_m = positive("minimum_height_m");
+    wind::TurbulenceSet set{
+        .name = name, .roughness_m = positive("roughness_m"), .minimum_height_m = positive("minimum_height_m")};
     if (set.minimum_height_m <= set.roughness_m) table.fail(row, "minimum_height_m", "lies below the roughness length");
     set.kappa = positive("kappa");
     set.sigma_ratio = {1.0, positive("sigma_u_over_v"), positive("sigma_w_over_v")};

@@ -62,12 +62,10 @@ std::vector<updating::FittedStructure> structures_of(const Calibration& calibrat
 }
 
 updating::FitObjective objective_of(const Calibration& calibration) {
-  updating::FitObjective out;
-  out.weight = calibration.weight;
-  out.unit = calibration.frequency_std;
-  out.range_costs = calibration.whole_range_costs;
-  out.start = starts(calibration);
-  return out;
+  return updating::FitObjective{.weight = calibration.weight,
+                                .unit = calibration.frequency_std,
+                                .range_costs = calibration.whole_range_costs,
+                                .start = starts(calibration)};
 }
 
 std::string told(const Calibration& calibration, const updating::StructureFit& fit) {

@@ -125,11 +125,10 @@ MatrixXd gusts(const VirtualWind& virtual_wind, const CampaignSettings& settings
         n, wind::standard_deviation(virtual_wind.turbulence, component, settings.wind_height_m, record.speed_m_s));
     field.length_m = VectorXd::Constant(n, wind::length_scale(virtual_wind.turbulence, component, settings.wind_height_m));
     field.decay = virtual_wind.turbulence.decay[static_cast<std::size_t>(component)];
-    wind::SimulationOptions options;
-    options.duration_s = record.duration_s;
-    options.rate_Hz = settings.rate_Hz;
-    options.cutoff_Hz = std::min(8.0, 0.5 * settings.rate_Hz);
-    options.amplitudes = wind::Amplitudes::gaussian;
+    wind::SimulationOptions options{.duration_s = record.duration_s,
+                                    .rate_Hz = settings.rate_Hz,
+                                    .cutoff_Hz = std::min(8.0, 0.5 * settings.rate_Hz),
+                                    .amplitudes = wind::Amplitudes::gaussian};
     out.middleCols(component == wind::Component::along ? 0 : n, n) = wind::Simulator(field, options).sample(seed);
   }
   return out;

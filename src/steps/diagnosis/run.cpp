@@ -120,9 +120,7 @@ diagnosis::ReducedModel reduced_for_modes(const diagnosis::DiagnosedModel& model
   const diagnosis::Structure structure = model.structure();
   diagnosis::Places places = diagnosis::find_places(structure, {});
   std::erase_if(places.sets, [](const auto& set) { return set.first != "dampers"; });
-  diagnosis::ReductionOptions reduction;
-  reduction.modes = modes;
-  reduction.corrected_modes = corrected;
+  diagnosis::ReductionOptions reduction{.modes = modes, .corrected_modes = corrected};
   return {structure, places, reduction};
 }
 

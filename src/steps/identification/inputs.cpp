@@ -110,14 +110,13 @@ std::vector<identification::ModeChoice> read_mode_choices(const std::string& fil
     const std::string action = table.text(row, "action");
     if (action != "keep" && action != "delete")
       table.fail(row, "action", "is '" + action + "', expected keep or delete", "write one of them");
-    identification::ModeChoice choice;
-    choice.setup = table.text(row, "setup");
-    choice.order = static_cast<int>(table.integer(row, "order"));
-    choice.frequency_Hz = table.number(row, "frequency_Hz");
-    choice.damping_ratio = 0.01 * table.number(row, "damping_ratio_pct");
-    choice.keep = action == "keep";
-    choice.file = table.file().string();
-    choice.line = table.line(row);
+    identification::ModeChoice choice{.setup = table.text(row, "setup"),
+                                      .order = static_cast<int>(table.integer(row, "order")),
+                                      .frequency_Hz = table.number(row, "frequency_Hz"),
+                                      .damping_ratio = 0.01 * table.number(row, "damping_ratio_pct"),
+                                      .keep = action == "keep",
+                                      .file = table.file().string(),
+                                      .line = table.line(row)};
     if (!(choice.frequency_Hz > 0.0))
       table.fail(row, "frequency_Hz", "is " + table.text(row, "frequency_Hz") + ", expected a frequency above 0",
                  "take it from poles.csv");

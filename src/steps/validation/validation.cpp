@@ -264,9 +264,7 @@ buffeting::MeasuredRms measured_rms(runner::StepContext& context, const Validati
   const std::set<std::string> vertical = vertical_channels(context, campaign, model, config.sensor_tolerance_m);
   for (const buffeting::WindEvent& event : config.events) {
     if (event.condition.empty()) continue;
-    records::RecordChoice choice;
-    choice.condition = event.condition;
-    choice.kind = "wind";
+    records::RecordChoice choice{.setup = {}, .condition = event.condition, .kind = "wind"};
     MeanSquares squares;
     for (const records::RecordGroup& group : records::record_groups(campaign, choice)) {
       for (const records::CampaignRecord& record : group.records) {
