@@ -156,10 +156,9 @@ std::vector<int> named_nodes(const fe::Model& model, const std::string& deck) {
     const char *first = name.data() + prefix.size(), *last = name.data() + name.size();
     if (first == last || !std::all_of(first, last, [](unsigned char c) { return std::isdigit(c) != 0; })) continue;
     if (std::from_chars(first, last, number).ec != std::errc()) continue;
-    if (const auto [other, is_new] = found.emplace(number, std::pair{name, node}); !is_new) {
+    if (const auto [other, is_new] = found.emplace(number, std::pair{name, node}); !is_new)
       throw InputError({model.source, 0, name}, "has the number of the point " + other->second.first,
                        "number the points of a deck from one end to the other");
-    }
   }
   std::vector<int> nodes;
   for (const auto& [number, point] : found) nodes.push_back(point.second);

@@ -52,10 +52,9 @@ DerivativeTable::DerivativeTable(Convention convention, std::vector<double> alph
     throw InputError({source_, 0, "alpha_deg"}, "is empty or does not ascend", "sort the angles of attack");
   for (int i = 0; i < 18; ++i) {
     const DerivativeCurve& curve = curves_[static_cast<std::size_t>(i)];
-    if (!ascends(curve.v_over_omegaB) || curve.v_over_omegaB.front() <= 0.0) {
+    if (!ascends(curve.v_over_omegaB) || curve.v_over_omegaB.front() <= 0.0)
       throw InputError({source_, 0, name_of(convention, i)}, "its reduced velocities are empty, not positive or do not ascend",
                        "give positive reduced velocities in ascending order");
-    }
     if (curve.value.rows() != static_cast<Eigen::Index>(alpha_rad_.size()) ||
         curve.value.cols() != static_cast<Eigen::Index>(curve.v_over_omegaB.size())) {
       throw InputError({source_, 0, name_of(convention, i)}, "has no value for each angle of attack and reduced velocity",
@@ -80,12 +79,11 @@ bool DerivativeTable::covers(double alpha_rad, double v) const {
 }
 
 DerivativeBlock DerivativeTable::at(double alpha_rad, double v) const {
-  if (!covers_angle(alpha_rad)) {
+  if (!covers_angle(alpha_rad))
     throw InputError({source_, 0, "alpha_deg"},
                      fmt::format("covers {:.6g} to {:.6g} degrees, {:.6g} is needed", alpha_rad_.front() * degrees,
                                  alpha_rad_.back() * degrees, alpha_rad * degrees),
                      "extend the table, or lower the wind's angle of attack");
-  }
   const Between row = locate(alpha_rad_, alpha_rad);
   Derivatives18 values{};
   const std::vector<double>* last_axis = nullptr;
@@ -93,13 +91,12 @@ DerivativeBlock DerivativeTable::at(double alpha_rad, double v) const {
   for (int i = 0; i < 18; ++i) {
     const DerivativeCurve& curve = curves_[static_cast<std::size_t>(i)];
     const std::vector<double>& axis = curve.v_over_omegaB;
-    if (!covers_velocity(curve, v)) {
+    if (!covers_velocity(curve, v))
       throw InputError(
           {source_, 0, name_of(convention_, i)},
           fmt::format("covers V/(omega B) from {:.6g} to {:.6g} (V/(f B) {:.6g} to {:.6g}), {:.6g} is needed", axis.front(),
                       axis.back(), 2 * std::numbers::pi * axis.front(), 2 * std::numbers::pi * axis.back(), v),
           "extend the table, narrow the speeds, or ask for the end values by `hold`");
-    }
     if (last_axis == nullptr || *last_axis != axis) column = locate(axis, v);
     last_axis = &axis;
     values[static_cast<std::size_t>(i)] = interpolate(curve.value, row, column);

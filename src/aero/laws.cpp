@@ -54,11 +54,10 @@ std::optional<std::string> slopes(const Polar& polar) {
       const double found =
           (polar.at(alpha[i + 1]).*column.value - polar.at(alpha[i - 1]).*column.value) / (alpha[i + 1] - alpha[i - 1]);
       const double said = polar.at(alpha[i]).*column.slope;
-      if (std::abs(said - found) > share_of_slope * largest + least_slope) {
+      if (std::abs(said - found) > share_of_slope * largest + least_slope)
         return fmt::format(
             "{}: d{}/dalpha is given as {:.4g} per radian at {:.3g} degrees, the coefficients beside it rise by {:.4g}",
             polar.source(), column.name, said, alpha[i] * degrees, found);
-      }
     }
   }
   return std::nullopt;

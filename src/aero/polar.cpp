@@ -48,12 +48,11 @@ StaticCoefficients Polar::at(double alpha) const {
     c.moment += c.moment_slope * alpha;
     return c;
   }
-  if (!covers(alpha)) {
+  if (!covers(alpha))
     throw InputError({source_, 0, "alpha_deg"},
                      fmt::format("covers {:.6g} to {:.6g} degrees, {:.6g} is needed", alpha_rad_.front() * degrees,
                                  alpha_rad_.back() * degrees, alpha * degrees),
                      "extend the table, or lower the wind's angle of attack");
-  }
   const auto upper = std::upper_bound(alpha_rad_.begin(), alpha_rad_.end(), alpha);
   if (upper == alpha_rad_.end()) return rows_.back();
   const auto i = static_cast<std::size_t>(upper - alpha_rad_.begin());

@@ -85,10 +85,9 @@ Eigen::MatrixXd damper_patterns(const dynamics::LoadedModel& loaded, const std::
 std::vector<SectionAero> sections_of(const WindSettings& config, const std::vector<DeckAerodynamics>& data,
                                      const std::string& set, double level) {
   const std::vector<std::string> known = {"standin", "quasi_steady"};
-  if (std::find(known.begin(), known.end(), set) == known.end()) {
+  if (std::find(known.begin(), known.end(), set) == known.end())
     throw InputError({"", 0, "sets"}, "'" + set + "' is no aerodynamic set" + did_you_mean(set, known),
                      "choose standin or quasi_steady");
-  }
   std::vector<SectionAero> sections;
   for (std::size_t i = 0; i < data.size(); ++i) {
     const DeckWind& deck = config.decks[i];
@@ -106,10 +105,9 @@ std::vector<SectionAero> sections_of(const WindSettings& config, const std::vect
 }
 
 AeroNodes aero_nodes_of(const WindSettings& config, const fe::Model* model, const std::string& source) {
-  if (model == nullptr) {
+  if (model == nullptr)
     throw InputError({source, 0, ""}, "is a matrix model, whose decks are not known",
                      "give a model folder with nodes and elements");
-  }
   std::vector<std::string> groups;
   for (const DeckWind& deck : config.decks) groups.push_back(deck.cross_group);
   return find_aero_nodes(*model, config.deck_names(), groups, static_cast<int>(config.nodes_per_deck));

@@ -75,11 +75,10 @@ Deployment everywhere(const YawRule& rule) { return {rule.name, rule, {}}; }
 double yaw_cosine(double yaw_rad) {
   const double c = std::cos(yaw_rad);
   // A wind along the deck meets no strip; the small margin keeps 1/cos³ from overflowing.
-  if (!(std::abs(yaw_rad) < std::numbers::pi / 2) || c < 1e-6) {
+  if (!(std::abs(yaw_rad) < std::numbers::pi / 2) || c < 1e-6)
     throw InputError({"", 0, "yaw"},
                      fmt::format("is {:.6g} degrees, expected less than 90 either way", yaw_rad * 180 / std::numbers::pi),
                      "turn the wind, or leave out the aerodynamic nodes that it blows along");
-  }
   return c;
 }
 

@@ -41,10 +41,9 @@ Sensors find_sensors(const dynamics::LoadedModel& loaded, const aero::WindModel&
   out.points = buffeting::accelerometers(*loaded.model);
   for (std::size_t i = 1; i < motions.size(); i += 3) out.nodes.push_back(i);
   out.motion.resize(out.lateral_row(out.nodes.size()), vectors.cols());
-  for (std::size_t p = 0; p < out.points.size(); ++p) {
+  for (std::size_t p = 0; p < out.points.size(); ++p)
     out.motion.middleRows<3>(3 * static_cast<Index>(p)) =
         full.middleRows<3>(6 * loaded.model->monitoring_points.at(out.points[p]));
-  }
   for (std::size_t i = 0; i < out.nodes.size(); ++i) {
     out.motion.row(out.lateral_row(i)) = model.strips[out.nodes[i]].normal.transpose() * motions[out.nodes[i]].topRows<3>();
     out.motion.row(out.vertical_row(i)) = motions[out.nodes[i]].row(2);

@@ -114,10 +114,9 @@ std::vector<FieldCheck> FieldStatistics::checks() const {
 
 Interval confidence_interval(const Eigen::Ref<const Eigen::VectorXd>& replicates, double level) {
   const Eigen::Index n = replicates.size();
-  if (n < 2) {
+  if (n < 2)
     throw InputError({"", 0, "replicates"}, fmt::format("are {}, expected at least two for an interval", n),
                      "ask for more seeds");
-  }
   Interval out;
   out.mean = replicates.mean();
   out.deviation = std::sqrt((replicates.array() - out.mean).square().sum() / static_cast<double>(n - 1));

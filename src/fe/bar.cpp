@@ -14,12 +14,11 @@ using Nodes = std::array<Eigen::Vector3d, 2>;
 
 double length_of(const Nodes& x) {
   const double length = (x[1] - x[0]).norm();
-  if (!(length > 1e-12 * (x[0].norm() + x[1].norm())) || !std::isfinite(length)) {
+  if (!(length > 1e-12 * (x[0].norm() + x[1].norm())) || !std::isfinite(length))
     throw InputError({},
                      fmt::format("bar at ({:.6g}, {:.6g}, {:.6g}) m has length {:.3g} m, expected two distinct ends", x[0].x(),
                                  x[0].y(), x[0].z(), length),
                      "give the bar two nodes at different places");
-  }
   return length;
 }
 

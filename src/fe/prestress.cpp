@@ -147,11 +147,10 @@ void deform(const Model& model, const std::vector<int>& stays, const Eigen::Matr
     state.status = c.status;
     return;
   }
-  if (state.status.converged && change >= settled_pulls) {
+  if (state.status.converged && change >= settled_pulls)
     state.status = {false, fmt::format("the cable forces still change by {:.2g} % after {} rounds of shape finding under large "
                                        "displacements; ask for linear displacements, or give the forces",
                                        100.0 * change, shape_finding_rounds)};
-  }
   state.displacement = c.displacement;
   state.rotation = c.rotation;
   state.axial_force_N = c.axial_force_N;

@@ -41,11 +41,10 @@ std::vector<double> distances_to_smaller_order(const std::vector<DiagramPole>& d
   std::map<int, Members> of_order;
   for (std::size_t i = 0; i < diagram.size(); ++i) of_order[diagram[i].pole.order].push_back(i);
   std::vector<double> nearest(diagram.size(), std::numeric_limits<double>::infinity());
-  for (std::size_t k = 1; k < orders.size(); ++k) {
+  for (std::size_t k = 1; k < orders.size(); ++k)
     for (const std::size_t i : of_order[orders[k]])
       for (const std::size_t j : of_order[orders[k - 1]])
         nearest[i] = std::min(nearest[i], distance(diagram[i].pole, diagram[j].pole));
-  }
   return nearest;
 }
 

@@ -116,10 +116,9 @@ Identification preger(const ConditionResult& result, const std::vector<Index>& r
     Eigen::VectorXd own(static_cast<Index>(one.channels.size()));
     for (Index c = 0; c < own.size(); ++c) own[c] = level * scale[one.channels[static_cast<std::size_t>(c)]];
     signal::BlockCorrelations blocks;
-    for (const Samples& record : setup.conditioned.records) {
+    for (const Samples& record : setup.conditioned.records)
       blocks.append(
           signal::correlations(scaled_channels(record, own.cwiseInverse()), one.references, 2 * config.block_rows, 1));
-    }
     one.lags = blocks.mean();
     setups.push_back(std::move(one));
   }
@@ -225,12 +224,11 @@ ConditionResult read_condition(const records::Campaign& campaign, const std::vec
   }
   for (const std::string& warning : left_out) reporter.warn(warning);
   list_channels(result);
-  if (config.merge == "preger" && !is_one_rate(result)) {
+  if (config.merge == "preger" && !is_one_rate(result))
     throw InputError(
         {(campaign.folder / "campaign.toml").string(), groups.front().records.front().line, "sampling_rate_Hz"},
         fmt::format("differs between the setups of condition {}, expected one rate for merge = \"preger\"", result.condition),
         "merge after identification: --set merge=poser");
-  }
   if (result.setups.size() > 1 && common_references(result).empty()) throw no_common_reference(campaign.folder, result);
   return result;
 }
@@ -238,10 +236,9 @@ ConditionResult read_condition(const records::Campaign& campaign, const std::vec
 void merge_setups(ConditionResult& result) {
   list_channels(result);
   std::vector<SetupModes> setups;
-  for (const SetupResult& setup : result.setups) {
+  for (const SetupResult& setup : result.setups)
     setups.push_back(
         {setup.conditioned.setup, positions(result, setup.conditioned.channels), setup.found.modes, setup.found.deviations});
-  }
   const std::vector<Index> references = common_references(result);
   if (setups.size() > 1 && references.empty()) throw no_common_reference({}, result);
   result.modes = merge_poser(setups, static_cast<Index>(result.channels.size()), references, {});
@@ -259,10 +256,9 @@ void identify_condition(ConditionResult& result, const IdentificationSettings& c
     setup.found = identify_modes(setup.conditioned, setup.limits);
     take_choices(setup.found, config.choices, setup.conditioned, channel_rms(setup.conditioned.records));
     if (!band.empty()) reporter.say(band);
-    for (const PeriodicLine& line : setup.found.periodic) {
+    for (const PeriodicLine& line : setup.found.periodic)
       reporter.say(fmt::format("setup {}: {:.4f} Hz is a steady line of a periodic force{}, no mode", name, line.frequency_Hz,
                                line.multiple > 1 ? fmt::format(" ({} times the lowest)", line.multiple) : ""));
-    }
   }
   std::vector<Identification*> found;
   for (SetupResult& setup : result.setups) found.push_back(&setup.found);

@@ -182,10 +182,9 @@ std::vector<DecayResult> identify_free_decays(const std::vector<Conditioned>& re
       whole.emplace_back(record.bottomRows(record.rows() - from));
     }
     const Index length = length_of(whole, conditioned.rate_Hz, own, result.note);
-    if (!result.note.empty()) {
+    if (!result.note.empty())
       result.note = fmt::format("setup {}: a free decay of {} samples is too short for all limits: {}", conditioned.setup,
                                 length, result.note.substr(2));
-    }
     for (const Eigen::MatrixXd& decay : whole) pieces.emplace_back(decay.topRows(length) * scale.cwiseInverse().asDiagonal());
     // The last half of a record that is long enough shows what moves the bridge when the decay is over.
     for (const Eigen::MatrixXd& decay : whole) {

@@ -57,12 +57,11 @@ FreeDecay era(const std::vector<Eigen::MatrixXd>& decays, Index block_rows, cons
   const Index l = decays.front().cols(), samples = decays.front().rows(), n_max = orders.back();
   const Index q = columns_of(decays, block_rows, samples);
   const Index most = samples < 2 * block_rows ? 0 : std::min((block_rows - 1) * l, q * static_cast<Index>(decays.size()));
-  if (n_max > most) {
+  if (n_max > most)
     throw InputError({"", 0, "maximum_order"},
                      fmt::format("is {}, but free decays of {} samples with {} block rows carry at most {}", n_max, samples,
                                  block_rows, most),
                      "give longer decays, fewer block rows, or a lower order");
-  }
   const Eigen::MatrixXd hankel = block_hankel(decays, block_rows, q);
   LeadingSvd svd = leading_svd(hankel, n_max);
   FreeDecay found;

@@ -26,12 +26,10 @@ bool listed(const std::vector<std::string>& names, const std::string& name) {
 }
 
 void require_known(const std::vector<std::string>& asked, const std::vector<std::string>& known, const std::string& key) {
-  for (const std::string& name : asked) {
-    if (!listed(known, name)) {
+  for (const std::string& name : asked)
+    if (!listed(known, name))
       throw InputError({"", 0, key}, fmt::format("'{}' is no channel of the record{}", name, did_you_mean(name, known)),
                        "name its columns");
-    }
-  }
 }
 
 /// Columns that are used: responses that are not left out.
@@ -42,19 +40,17 @@ std::vector<Index> used_columns(const records::Campaign& campaign, const records
   for (std::size_t c = 0; c < record.channels.size(); ++c)
     if (!campaign.channel(record.channels[c]).is_input && !listed(config.exclude, record.channels[c]))
       columns.push_back(static_cast<Index>(c));
-  if (columns.empty() && config.exclude.empty()) {
+  if (columns.empty() && config.exclude.empty())
     throw InputError({(campaign.folder / "channels.csv").string(), 0, "role"}, "no channel of the record is a response",
                      "give one at least the role response");
-  }
   if (columns.empty()) throw InputError({"", 0, "exclude"}, "leaves no response channel", "leave out fewer");
   constexpr std::size_t most = 500;  // whose cross spectra take 4 GB; of 5,000 they would take 400 GB
-  if (columns.size() > most) {
+  if (columns.size() > most)
     throw InputError(
         {(campaign.folder / "campaign.toml").string(), record.line_of("channels"), "channels"},
         fmt::format("{} response channels are to be identified together, expected at most {}", columns.size(), most),
         "divide them over several [[record]] tables of the same file with a setup each, which share some references, "
         "or leave channels out by the key `exclude`");
-  }
   return columns;
 }
 
@@ -109,10 +105,9 @@ void refuse_unusable(const std::vector<ChannelQuality>& quality, const std::vect
     if (channel == used.end()) continue;
     const std::string without = "leave the channel out: --set 'exclude=[\"" + q.channel + "\"]'";
     if (!q.left_out.empty()) throw LyingChannel({q.record, 0, q.channel}, q.left_out, without);
-    if (q.dead) {
+    if (q.dead)
       throw UnusableRecord({q.record, 0, q.channel}, fmt::format("is constant ({}) over {} samples", q.mean, q.samples),
                            without);
-    }
     if (channel->quantity != "force") refuse_lone(q, config.largest_lone, without);
     refuse_clipped(q, config.largest_clipping, without);
   }
@@ -134,11 +129,10 @@ void refuse_repeats(const Samples& raw, const records::CampaignRecord& record, R
   const auto twice = seen.add(raw, record.file.string());
   if (!twice) return;
   const bool own = twice->file == record.file.string();
-  if (!own && twice->length == raw.rows()) {
+  if (!own && twice->length == raw.rows())
     throw InputError(
         {record.file.string(), 0, ""}, "holds the same samples as " + twice->file + ", which the setup has too",
         fmt::format("remove the [[record]] on line {} of campaign.toml: counted twice, deviations are too small", record.line));
-  }
   throw InputError({record.file.string(), 0, ""},
                    fmt::format("holds samples twice: the {} from sample {} on are those {}from sample {} on, in all channels",
                                twice->length, twice->again, own ? "" : "of " + twice->file + " ", twice->first),
@@ -308,12 +302,11 @@ Identification identify_modes(const Conditioned& conditioned, const Identificati
   for (const Samples& record : conditioned.records) scaled.push_back(scaled_channels(record, scale.cwiseInverse()));
   Identification found;
   if (!conditioned.excitation.empty()) {
-    if (scaled.size() > 1) {
+    if (scaled.size() > 1)
       throw InputError(
           {"", 0, "setup"},
           fmt::format("setup {} has {} records with measured inputs, expected one", conditioned.setup, scaled.size()),
           "give each its own setup");
-    }
     const Samples& input = conditioned.excitation.front();
     const Eigen::VectorXd input_scale = channel_rms(conditioned.excitation);
     found =

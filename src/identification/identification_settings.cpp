@@ -12,12 +12,11 @@ namespace {
 
 double highest_of(const IdentificationSettings& config, double rate_Hz) {
   const double nyquist = 0.5 * rate_Hz;
-  if (config.highest_Hz > nyquist || config.lowest_Hz >= (config.highest_Hz > 0.0 ? config.highest_Hz : 0.8 * nyquist)) {
+  if (config.highest_Hz > nyquist || config.lowest_Hz >= (config.highest_Hz > 0.0 ? config.highest_Hz : 0.8 * nyquist))
     throw InputError({"", 0, "band.highest"},
                      fmt::format("the band {} to {} Hz does not lie below {} Hz, the Nyquist frequency after decimation",
                                  config.lowest_Hz, config.highest_Hz, nyquist),
                      "change the band, or decimate less");
-  }
   return config.highest_Hz > 0.0 ? config.highest_Hz : 0.8 * nyquist;
 }
 

@@ -85,18 +85,16 @@ Eigen::VectorXd replicate(const std::vector<Pole>& members, const std::vector<in
 void check_size(const Sizes& size, Index samples, int n_blocks, int maximum_order) {
   // n samples have n - 2p + 1 columns: twice as many as the rows 2p of all channels, and more than 2p in each block.
   const Index carried = std::min((samples + 1) / (4 * size.all() + 2), (samples + 1 - n_blocks) / (2 * n_blocks + 2));
-  if (size.block_rows > carried) {
+  if (size.block_rows > carried)
     throw InputError({"", 0, "block_rows"},
                      fmt::format("is {}, but a record of {} samples with {} inputs and {} outputs carries at most {}",
                                  size.block_rows, samples, size.inputs, size.outputs, std::max<Index>(carried, 0)),
                      "ask for fewer block rows, or give a longer record");
-  }
-  if (maximum_order > (size.block_rows - 1) * size.outputs) {
+  if (maximum_order > (size.block_rows - 1) * size.outputs)
     throw InputError({"", 0, "maximum_order"},
                      fmt::format("is {}, but {} block rows of {} outputs carry at most {}", maximum_order, size.block_rows,
                                  size.outputs, (size.block_rows - 1) * size.outputs),
                      "raise block_rows or lower maximum_order");
-  }
 }
 
 /// Gram matrices of the data in consecutive blocks of columns; their sum is that of the record.

@@ -49,11 +49,10 @@ CarriedLimits carried_by(const Conditioned& conditioned, const IdentificationSet
   const long fewest_rows = std::min(config.block_rows, kFewestBlockRows), blocks = std::min(config.blocks, kFewestBlocks);
   const long identified = fewest_rows * (with_inputs ? samples_per_row_with_inputs(conditioned) : kSamplesPerRow * blocks);
   const long least = std::max(identified, std::min(config.welch_segment, kSpectrumSegment));
-  if (n < least) {
+  if (n < least)
     throw UnusableRecord({conditioned.files.front(), 0, ""},
                          fmt::format("has {} samples after decimation, expected at least {}", n, least),
                          "give a longer record, or a smaller decimation");
-  }
   Limits limits(config);
   if (with_inputs) {
     limits.lower("block_rows", &IdentificationSettings::block_rows, n / samples_per_row_with_inputs(conditioned));

@@ -254,16 +254,13 @@ std::vector<MergedMode> merge_poser(const std::vector<SetupModes>& setups, Index
                                     const std::vector<Index>& references, const MergingRule& rule) {
   for (const SetupModes& setup : setups) {
     TWINDECK_ASSERT(setup.modes.size() == setup.deviations.size());
-    if (setups.size() > 1 && references.empty()) {
+    if (setups.size() > 1 && references.empty())
       throw InputError({"", 0, "references"}, "names no channel that all setups share, expected at least one",
                        "mark the sensors that stayed in place by reference = 1 in channels.csv");
-    }
-    for (const Index channel : references) {
-      if (setups.size() > 1 && position(setup, channel) < 0) {
+    for (const Index channel : references)
+      if (setups.size() > 1 && position(setup, channel) < 0)
         throw InputError({"", 0, "references"}, fmt::format("setup {} lacks a reference channel of the others", setup.setup),
                          "leave the setup out, or choose references that every setup has");
-      }
-    }
   }
   std::vector<MergedMode> result;
   for (const std::vector<Candidate>& members : groups(setups, rule)) {

@@ -102,13 +102,12 @@ std::vector<std::vector<Pole>> merge_preger(const std::vector<SetupCorrelations>
                                             const std::vector<int>& orders, double rate_Hz) {
   TWINDECK_ASSERT(!setups.empty() && !orders.empty());
   const Index r = static_cast<Index>(setups.front().references.size()), n_max = orders.back();
-  if (n_max > (block_rows - 1) * r) {
+  if (n_max > (block_rows - 1) * r)
     throw InputError({"", 0, "maximum_order"},
                      fmt::format("is {}, but {} block rows of {} references carry at most {} when setups are merged before "
                                  "identification",
                                  n_max, block_rows, r, (block_rows - 1) * r),
                      "raise block_rows or lower maximum_order");
-  }
   const JointSetups all = side_by_side(setups, block_rows);
   const LeadingSvd svd = leading_svd(all.joint, n_max);
   std::vector<std::vector<Pole>> poles;

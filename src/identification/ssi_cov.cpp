@@ -25,12 +25,11 @@ Eigen::MatrixXd block_toeplitz(const std::vector<Eigen::MatrixXd>& lags, Index b
 Observability ssi_cov(const std::vector<Eigen::MatrixXd>& lags, Index block_rows, Index n_outputs, Index n_max) {
   const Eigen::MatrixXd toeplitz = block_toeplitz(lags, block_rows);
   const Index most = std::min(toeplitz.rows() - n_outputs, toeplitz.cols());
-  if (n_max > most) {
+  if (n_max > most)
     throw InputError({"", 0, "maximum_order"},
                      fmt::format("is {}, but {} block rows of {} channels with {} references carry at most {}", n_max,
                                  block_rows, n_outputs, lags.front().cols(), most),
                      "raise block_rows or lower maximum_order");
-  }
   LeadingSvd svd = leading_svd(toeplitz, n_max);
   return {std::move(svd.u), std::move(svd.values), std::move(svd.v), n_outputs};
 }

@@ -62,11 +62,10 @@ void continue_diagonals(Eigen::MatrixXd& gram, const Side& x, const Side& y, Ind
 Eigen::MatrixXd hankel_gram(const Eigen::Ref<const Eigen::MatrixXd>& data, const std::vector<Index>& references,
                             Index block_rows) {
   const Index p = block_rows, n = data.rows() - 2 * p + 1, l = data.cols(), r = static_cast<Index>(references.size());
-  if (data.rows() < 4 * p) {
+  if (data.rows() < 4 * p)
     throw InputError({"", 0, "block_rows"},
                      fmt::format("is {}, but the record has {} samples, expected at least {}", p, data.rows(), 4 * p),
                      "ask for fewer block rows, or give a longer record");
-  }
   const Eigen::MatrixXd refs = data(Eigen::all, references);
   Eigen::MatrixXd gram = Eigen::MatrixXd::Zero((r + l) * p, (r + l) * p);
   const Index future = r * p;
@@ -99,22 +98,20 @@ DataDriven ssi_data(const std::vector<Eigen::MatrixXd>& grams, double samples, I
   for (std::size_t i = 1; i < grams.size(); ++i) gram += grams[i];
   gram /= samples;
   const Index past = n_references * block_rows, future = n_outputs * block_rows, most = std::min(future - n_outputs, past);
-  if (n_max > most) {
+  if (n_max > most)
     throw InputError({"", 0, "maximum_order"},
                      fmt::format("is {}, but {} block rows of {} channels with {} references carry at most {}", n_max,
                                  block_rows, n_outputs, n_references, most),
                      "raise block_rows or lower maximum_order");
-  }
   DataDriven found;
   found.samples = samples;
   // What the anti-aliasing filter removed leaves the past nearly singular: 1e-12 of its mean power keeps the factor real.
   const double floor = 1e-12 * gram.topLeftCorner(past, past).trace() / static_cast<double>(past);
   gram.diagonal().head(past).array() += floor;
   found.past_factor = linalg::cholesky_factor(gram.topLeftCorner(past, past));
-  if (found.past_factor.size() == 0) {
+  if (found.past_factor.size() == 0)
     throw InputError({"", 0, "references"}, "are linearly dependent: one repeats others",
                      "leave that channel out, or take fewer references");
-  }
   const Eigen::MatrixXd cross = gram.bottomLeftCorner(future, past);
   found.projection = found.past_factor.triangularView<Eigen::Lower>().solve(cross.transpose()).transpose();
   LeadingSvd svd = leading_svd(found.projection, n_max);

@@ -97,12 +97,11 @@ constexpr Ends kEnds[] = {{0.0, 0.45}, {1.0, 0.45}, {0.25, 0.1 / 3.0}, {0.5, 0.1
 void check_harmonics(const std::vector<Harmonic>& harmonics) {
   std::set<int> numbers;
   for (const Harmonic& h : harmonics) {
-    if (h.number < 1 || !(h.frequency_Hz > 0.0) || !(h.deviation_Hz > 0.0)) {
+    if (h.number < 1 || !(h.frequency_Hz > 0.0) || !(h.deviation_Hz > 0.0))
       throw InputError({"", 0, "stay"},
                        fmt::format("harmonic {} has {} Hz with a standard deviation of {}, expected positive numbers", h.number,
                                    h.frequency_Hz, h.deviation_Hz),
                        "give each harmonic a number from 1, a frequency and its standard deviation");
-    }
     if (!numbers.insert(h.number).second)
       throw InputError({"", 0, "stay"}, fmt::format("has harmonic {} twice", h.number), "keep one of them");
   }

@@ -225,10 +225,9 @@ StayFit fit_stay(const std::vector<Harmonic>& frequencies, const StaySection& se
 }
 
 StayFit fit_numbered(const std::vector<Harmonic>& harmonics, const StaySection& section, double level) {
-  if (harmonics.size() < 2) {
+  if (harmonics.size() < 2)
     throw InputError({"", 0, "stay"}, fmt::format("has {} harmonics, expected at least two", harmonics.size()),
                      "identify higher modes of the stay");
-  }
   Numbers numbers;
   for (std::size_t i = 0; i < harmonics.size(); ++i) numbers[harmonics[i].number] = i;
   return fit_of({explain(harmonics, numbers, section, Effort::full)}, section, level);

@@ -22,10 +22,9 @@ PoleFactors pole_factors(const Observability& observability, const ShiftModels& 
   for (std::size_t b = 0; b < changes.size(); ++b) {
     for (std::size_t order = 0; order < models.orders.size(); ++order) {
       const auto poles = pole_changes(observability, models, order, changes[b]);
-      for (std::size_t i = 0; i < poles.size(); ++i) {
+      for (std::size_t i = 0; i < poles.size(); ++i)
         factors.of[order][i].col(static_cast<Index>(b)) << poles[i].frequency_Hz, poles[i].damping_ratio, poles[i].shape.real(),
             poles[i].shape.imag();
-      }
     }
   }
   return factors;

@@ -88,10 +88,9 @@ Place at_line(const TomlValue& node, Place place) {
 
 std::string read_choice(const TomlValue& node, const std::vector<std::string>& allowed, const Place& place) {
   const std::string value = text_of(node, place);
-  if (std::find(allowed.begin(), allowed.end(), value) == allowed.end()) {
+  if (std::find(allowed.begin(), allowed.end(), value) == allowed.end())
     throw InputError(place, "is " + toml_text(value) + did_you_mean(value, allowed),
                      fmt::format("choose one of {}", fmt::join(allowed, ", ")));
-  }
   return value;
 }
 

@@ -90,11 +90,10 @@ struct Reader {
   }
 
   void read(FieldTable::Field& field, const TomlValue& node, const Place& place) const {
-    if (field.add) {
+    if (field.add)
       elements(field, node, place);
-    } else {
+    else
       field.read(node, place);
-    }
     field.given = true;
     field.place = place;
   }
@@ -108,19 +107,16 @@ struct Reader {
         std::find_if(element.begin(), element.end(), [&](const TomlEntry& entry) { return entry.key == field.named_by; });
     if (field.named_by.empty() || name == element.end()) return;
     const auto [first, is_new] = lines.emplace(shown(name->value), name->line);
-    if (!is_new) {
+    if (!is_new)
       throw InputError({file, name->line, above + name->key}, fmt::format("is {}, as on line {}", first->first, first->second),
                        "give each [[" + field.key + "]] a " + field.named_by + " of its own, or remove one of the two");
-    }
   }
 
   void require(long line) const {
-    for (const auto& field : fields) {
-      if (field->required && !field->given) {
+    for (const auto& field : fields)
+      if (field->required && !field->given)
         throw InputError({file, line, above + field->key}, "is missing, a " + field->type + " is required",
                          "add it: " + field->meaning + (field->unit.empty() ? "" : " [" + field->unit + "]"));
-      }
-    }
   }
 };
 
@@ -173,10 +169,9 @@ void FieldTable::set(const std::string& key_equals_value) {
   const Reader reader{fields_, "--set", "", retired_};
   Field* field = reader.find(key);
   if (field == nullptr) reader.unknown(key, 0);
-  if (field->add) {
+  if (field->add)
     throw InputError({"--set", 0, key}, "is an array of tables and cannot be set on the command line",
                      "write it into the configuration file");
-  }
   TomlValue parsed = toml_of_command_line(value, key);
   if (field->takes_text && parsed.as<std::string>() == nullptr) parsed = {value, 0};  // --set version=5: the text "5"
   reader.read(*field, parsed, {"--set", 0, key});

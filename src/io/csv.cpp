@@ -124,19 +124,16 @@ CsvTable CsvTable::read(const std::filesystem::path& asked, const std::vector<st
           nearest.empty() ? fmt::format("known columns are {}", fmt::join(known, ", ")) : "did you mean '" + nearest + "'?");
     }
   }
-  for (const std::string& column : required) {
-    if (!table.index_.contains(column)) {
+  for (const std::string& column : required)
+    if (!table.index_.contains(column))
       throw InputError({file.string(), line, column}, "column is missing" + did_you_mean(column, table.columns_),
                        "expected columns: " + joined(required));
-    }
-  }
   std::vector<std::string> cells;
   while (reader.next(cells, line)) {
-    if (cells.size() != table.columns_.size()) {
+    if (cells.size() != table.columns_.size())
       throw InputError({file.string(), line, ""},
                        fmt::format("has {} cells, expected {} as in the header", cells.size(), table.columns_.size()),
                        "give every column a cell, empty where there is no value");
-    }
     table.cells_.push_back(cells);
     table.line_.push_back(line);
   }
@@ -157,10 +154,9 @@ std::optional<double> CsvTable::number_if(std::size_t row, const std::string& co
   const auto [stop, error] = std::from_chars(begin, end, value);
   if (error == std::errc::result_out_of_range)
     fail(row, column, "is \"" + cell + "\", beyond what a number can hold", "give a number between 1e-300 and 1e60");
-  if (error != std::errc{} || stop != end) {
+  if (error != std::errc{} || stop != end)
     fail(row, column, "is \"" + cell + "\", expected a number",
          "write it like 12.5 or 1.25e1; the unit stands in the column name");
-  }
   if (!std::isfinite(value))
     fail(row, column, "is \"" + cell + "\", expected a finite number", "leave the row out or mend the value");
   if (std::abs(value) > largest_number)

@@ -42,10 +42,9 @@ std::optional<nlohmann::json> parse_ours(const fs::path& file) {
   std::ifstream in(file);
   if (!in) return std::nullopt;
   nlohmann::json json = nlohmann::json::parse(in, nullptr, false);
-  if (json.is_discarded()) {
+  if (json.is_discarded())
     throw InputError({file.string(), 0, ""}, "is no readable JSON, so the files beside it cannot be checked",
                      "run the step that writes this folder again");
-  }
   if (!json.is_object() || json.value("format", nlohmann::json()) != kFormat) return std::nullopt;
   return json;
 }
@@ -68,10 +67,9 @@ void check_file(const Manifest& manifest, const fs::path& folder, const fs::path
       "run " + manifest.step + " again, or copy the folder without its manifest.json to use it as your own data";
   if (listed == manifest.outputs.end())
     throw InputError({file.string(), 0, ""}, "is not among the outputs in the manifest of " + manifest.step, rerun);
-  if (listed->second != sha256(file)) {
+  if (listed->second != sha256(file))
     throw InputError({file.string(), 0, ""},
                      "was changed after " + manifest.step + " wrote it (its SHA-256 is not the manifest's)", rerun);
-  }
 }
 
 std::string sha256_of_stream(std::istream& in) {
@@ -155,12 +153,10 @@ void check_against_manifest(const fs::path& path) {
   for (const auto& entry : fs::recursive_directory_iterator(path))
     if (entry.is_regular_file()) check_file(manifest, *folder, entry.path());
   const std::string below = fs::relative(fs::weakly_canonical(path), *folder).generic_string();
-  for (const auto& [name, hash] : manifest.outputs) {
-    if ((below == "." || name.starts_with(below + "/")) && !fs::exists(*folder / name)) {
+  for (const auto& [name, hash] : manifest.outputs)
+    if ((below == "." || name.starts_with(below + "/")) && !fs::exists(*folder / name))
       throw InputError({(*folder / name).string(), 0, ""}, "is gone, though the manifest of " + manifest.step + " lists it",
                        "run " + manifest.step + " again");
-    }
-  }
 }
 
 bool is_step_folder(const fs::path& folder) {

@@ -88,10 +88,9 @@ Header parse(const std::string& text, const fs::path& file) {
     refuse(file, "has a header without 'descr' of one type of number: its rows may be records of several fields",
            "give a plain array: numpy.column_stack([data[name] for name in data.dtype.names])");
   const std::string type(description.substr(1, quote - 1));
-  if (type != "<f8" && type != "<f4" && type != "<i2" && type != "<i4") {
+  if (type != "<f8" && type != "<f4" && type != "<i2" && type != "<i4")
     refuse(file, fmt::format("holds type '{}', expected '<f8', '<f4', '<i2' or '<i4'", type),
            "convert it with array.astype('<f8')");
-  }
   header.type = type.substr(1);
   header.item_size = static_cast<std::size_t>(type.back() - '0');
   header.fortran_order = value_of_key(text, "fortran_order").starts_with("True");
@@ -120,13 +119,12 @@ OpenArray open_array(const fs::path& file) {
   if (rows == 0 || columns == 0)
     refuse(file, fmt::format("holds an array of {} x {}, without any value", rows, columns), "write the file again");
   const std::uintmax_t found = bytes - static_cast<std::uintmax_t>(array.in.tellg());
-  if (columns > found / header.item_size / rows || rows * columns * header.item_size != found) {
+  if (columns > found / header.item_size / rows || rows * columns * header.item_size != found)
     refuse(file,
            fmt::format("holds {} bytes of data, expected {:.0f} for {} x {} values", found,
                        static_cast<double>(rows) * static_cast<double>(columns) * static_cast<double>(header.item_size), rows,
                        columns),
            "the file was cut off or is damaged; copy it again");
-  }
   return array;
 }
 

@@ -30,12 +30,11 @@ char order_without_mark(std::string_view text) {
 
 void refuse_longer(const std::filesystem::path& file, std::uintmax_t most) {
   std::error_code unknown;
-  if (const std::uintmax_t bytes = std::filesystem::file_size(file, unknown); !unknown && bytes > most) {
+  if (const std::uintmax_t bytes = std::filesystem::file_size(file, unknown); !unknown && bytes > most)
     throw InputError({file.string(), 0, ""},
                      fmt::format("has {:.1f} GB, expected at most {:.0f} GB", 1e-9 * static_cast<double>(bytes),
                                  1e-9 * static_cast<double>(most)),
                      "give a shorter file");
-  }
 }
 
 TextLines::TextLines(const std::filesystem::path& file, std::uintmax_t most) : in_(file, std::ios::binary) {

@@ -15,9 +15,8 @@ TomlValue converted(const toml::node& node);
 
 TomlValue::Table converted_table(const toml::table& table) {
   TomlValue::Table entries;
-  for (const auto& [key, node] : table) {
+  for (const auto& [key, node] : table)
     entries.push_back({std::string(key.str()), static_cast<long>(key.source().begin.line), converted(node)});
-  }
   return entries;
 }
 
@@ -71,9 +70,8 @@ std::size_t end_of_string(std::string_view toml, std::size_t at) {
 }  // namespace
 
 TomlValue::Table read_toml(const std::filesystem::path& file) {
-  if (!std::filesystem::is_regular_file(file)) {
+  if (!std::filesystem::is_regular_file(file))
     throw InputError({file.string(), 0, ""}, "cannot be opened", "check the path of the configuration");
-  }
   const std::string text = text_of_file(file);
   refuse_deep_nesting(text, {file.string(), 0, ""});
   try {
@@ -139,11 +137,10 @@ std::string toml_text(const std::string& text) {
         quoted += "\\t";
         break;
       default:
-        if (static_cast<unsigned char>(letter) < 0x20 || letter == 0x7f) {
+        if (static_cast<unsigned char>(letter) < 0x20 || letter == 0x7f)
           quoted += fmt::format("\\u{:04X}", static_cast<unsigned char>(letter));
-        } else {
+        else
           quoted += letter;
-        }
     }
   }
   return quoted + "\"";

@@ -64,10 +64,9 @@ void warn_of_unmeasured(Reporter& reporter, const Pairing& pairing) {
 
 Pairing pair_at_sensors(const Measured& measured, const dynamics::LoadedModel& model, const dynamics::EigenModes& modes,
                         const PairingOptions& options, double sensor_tolerance_m) {
-  if (!measured.modes.has_shapes()) {
+  if (!measured.modes.has_shapes())
     throw InputError({measured.source, 0, "shape"}, "holds no measured shape, so that modes can't be paired by MAC",
                      "give shapes, or pairs");
-  }
   const Eigen::MatrixXcd phi_n = shapes_at_sensors(measured, model, modes, sensor_tolerance_m);
   // A mode that stands still at every sensor has no MAC; it can't be anybody's partner and takes part with zeros.
   std::vector<Index> moving;
@@ -94,11 +93,10 @@ Pairing pair_at_sensors(const Measured& measured, const dynamics::LoadedModel& m
 std::vector<ComparisonRow> compare(const std::string& stage, const Measured& measured, const Eigen::VectorXd& computed_Hz,
                                    const Pairing& pairing) {
   std::vector<ComparisonRow> rows;
-  for (const ModePair& pair : pairing.pairs) {
+  for (const ModePair& pair : pairing.pairs)
     rows.push_back({stage, label(measured, pair.experimental), numerical_label(pair.numerical),
                     measured.modes.frequency_Hz[pair.experimental], computed_Hz[pair.numerical], known(pair.mac),
                     pairing.method});
-  }
   return rows;
 }
 

@@ -48,18 +48,16 @@ std::vector<NamedPair> read_pairs(const std::vector<std::string>& entries, Eigen
   std::set<std::string> seen;
   for (const std::string& entry : entries) {
     const std::optional<NamedPair> pair = parse(entry);
-    if (!pair) {
+    if (!pair)
       throw InputError(place, fmt::format("'{}' is no pair, expected for example \"7X-8N\"", entry),
                        "name the measured mode, a dash, and the numerical mode");
-    }
     if (!seen.insert(pair->experimental).second || !seen.insert(numerical_label(pair->numerical)).second) {
       throw InputError(place, fmt::format("pair '{}' names a mode that another pair names too", entry), "pair each mode once");
     }
-    if (pair->numerical >= n_numerical) {
+    if (pair->numerical >= n_numerical)
       throw InputError(place,
                        fmt::format("pair '{}' asks for numerical mode {} of {}", entry, pair->numerical + 1, n_numerical),
                        more_modes);
-    }
     pairs.push_back(*pair);
   }
   return pairs;

@@ -24,11 +24,10 @@ std::vector<std::vector<Index>> clusters(const Eigen::VectorXd& frequency, doubl
   const std::vector<Index> order = lowest_first(frequency);
   std::vector<std::vector<Index>> runs;
   for (std::size_t i = 0; i < order.size(); ++i) {
-    if (i > 0 && frequency[order[i]] - frequency[order[i - 1]] < gap * frequency[order[i]]) {
+    if (i > 0 && frequency[order[i]] - frequency[order[i - 1]] < gap * frequency[order[i]])
       runs.back().push_back(order[i]);
-    } else {
+    else
       runs.push_back({order[i]});
-    }
   }
   std::erase_if(runs, [](const auto& run) { return run.size() < 2; });
   return runs;

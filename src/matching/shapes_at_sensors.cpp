@@ -80,12 +80,11 @@ std::size_t node_of(const ModelPoints& points, const modal::ShapeDof& dof, const
       }
     }
     if (least <= tolerance_m) return one_of(points, nearest, dof, *channel, measured, doubt);
-    if (std::isfinite(least)) {
+    if (std::isfinite(least))
       throw InputError({measured.source, 0, channel->name},
                        fmt::format("lies {:.2f} m from the nearest node ({}), expected at most {:.2f} m", least,
                                    points.node[nearest], tolerance_m),
                        mend_of_position(points, *channel->x_m, tolerance_m));
-    }
   }
   const auto by_name = std::find(points.node.begin(), points.node.end(), dof.point);
   if (by_name != points.node.end()) return static_cast<std::size_t>(by_name - points.node.begin());

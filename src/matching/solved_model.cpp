@@ -52,10 +52,9 @@ MatrixXd mac_between(const SolvedModel& a, const SolvedModel& b) {
         b.modes.shapes.cwiseProduct(a.mass.selfadjointView<Eigen::Lower>() * b.modes.shapes).colwise().sum();
     return modal::mass_weighted_mac(a.mass_shapes, b.modes.shapes) * norm.cwiseInverse().asDiagonal();
   }
-  if (!a.loaded.model || !b.loaded.model) {
+  if (!a.loaded.model || !b.loaded.model)
     throw InputError({b.loaded.source, 0, ""}, "has other degrees of freedom than " + a.loaded.source,
                      "compare models of the same degrees of freedom");
-  }
   const MatrixXd full_a = a.loaded.system.expand(a.modes.shapes), full_b = b.loaded.system.expand(b.modes.shapes);
   const auto places_b = nodes_by_place(*b.loaded.model);
   std::vector<Index> rows_a, rows_b;
@@ -67,10 +66,9 @@ MatrixXd mac_between(const SolvedModel& a, const SolvedModel& b) {
       rows_b.push_back(6 * at->second + d);
     }
   }
-  if (rows_a.empty()) {
+  if (rows_a.empty())
     throw InputError({b.loaded.source, 0, ""}, "has no node where " + a.loaded.source + " has one",
                      "compare models in the same coordinates");
-  }
   // A mode that only turns there (torsion of a line of beams) has no MAC: what is left of its translations is rounding.
   const std::vector<Index> moving_a = moving_modes(full_a, rows_a), moving_b = moving_modes(full_b, rows_b);
   MatrixXd mac = MatrixXd::Zero(full_a.cols(), full_b.cols());

@@ -119,12 +119,11 @@ int Builder::material(const Member& member, long id, bool isotropic) {
   const std::vector<std::pair<std::string, double>> twins = {
       {"EY", m.youngs_modulus_Pa}, {"EZ", m.youngs_modulus_Pa}, {"PRYZ", m.poisson_ratio},   {"PRXZ", m.poisson_ratio},
       {"NUYZ", m.poisson_ratio},   {"NUXZ", m.poisson_ratio},   {"GYZ", m.shear_modulus_Pa}, {"GXZ", m.shear_modulus_Pa}};
-  for (const auto& [label, twin] : twins) {
+  for (const auto& [label, twin] : twins)
     if (!alike(property(label, twin), twin, same_number))
       parts.at(known->second.at(label).line, m.name)
           .fail(fmt::format("{} makes it orthotropic, which is not supported", label),
                 "give EX, PRXY and DENS of an isotropic material");
-  }
   if (isotropic && !alike(m.shear_modulus_Pa, follows_from_E, follows))
     parts.at(known->second.at("GXY").line, m.name)
         .fail(fmt::format("GXY = {:g} does not follow from EX and PRXY ({:g}), which only beams and bars may have",

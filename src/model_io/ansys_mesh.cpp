@@ -94,11 +94,10 @@ DeckPlace here(const Parts& parts, const Command& block) { return parts.at(parts
 Columns format_below(Parts& parts, const Command& block, std::size_t least_integers) {
   Columns columns;
   const std::string text = needed_line(parts, block);
-  if (!parse_columns(text, columns) || columns.integers < least_integers) {
+  if (!parse_columns(text, columns) || columns.integers < least_integers)
     here(parts, block)
         .fail(fmt::format("'{}' is no format of this block", trimmed(text)),
               "expected so many whole numbers and reals with their widths, for example (3i9,6e21.13e3)");
-  }
   return columns;
 }
 
@@ -337,11 +336,10 @@ void read_component_block(Parts& parts, const Command& block) {
             .fail(fmt::format("'{} {}' is no range of members", last, member),
                   "a negative number ends a range that the number before begins");
       const long from = member < 0 ? last + 1 : member;
-      if (component.of_nodes) {
+      if (component.of_nodes)
         add(parts.nodes, from, std::abs(member));
-      } else {
+      else
         add(parts.elements, from, std::abs(member));
-      }
       last = member;
     }
   }

@@ -44,14 +44,12 @@ void save_model(const dynamics::LoadedModel& loaded, const Eigen::VectorXd& thet
 }
 
 fe::Model read_model(const std::filesystem::path& folder) {
-  if (!std::filesystem::is_directory(folder)) {
+  if (!std::filesystem::is_directory(folder))
     throw InputError({folder.string(), 0, ""}, "is no folder",
                      "give the folder of a model: model.toml, nodes.csv, elements.csv, …");
-  }
-  if (is_matrix_model(folder)) {
+  if (is_matrix_model(folder))
     throw InputError({(folder / "model.toml").string(), line_of(folder / "model.toml", "[matrices]"), "matrices"},
                      "this is a matrix model, which has no elements", "give a model folder with elements.csv to this step");
-  }
   fe::Model model;
   model.source = folder.string();
   NameIndex index;
@@ -71,10 +69,9 @@ fe::Model read_model(const std::filesystem::path& folder) {
 
 bool is_matrix_model(const std::filesystem::path& folder) {
   const auto file = folder / "model.toml";
-  if (!std::filesystem::exists(file)) {
+  if (!std::filesystem::exists(file))
     throw InputError({file.string(), 0, ""}, "is not there, but every model folder has one",
                      "write model.toml with at least a title, or point --model at another folder");
-  }
   return find(io::read_toml(file), "matrices") != nullptr;
 }
 

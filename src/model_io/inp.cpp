@@ -168,11 +168,10 @@ ImportedModel read_inp(const std::filesystem::path& path) {
       element.at->fail(fmt::format("element {} has no section, spring or mass card", id), "give its set one");
   note_loads(parts, plan, stage);
   parts.drop_unused_nodes();
-  for (const auto& [id, body] : parts.turned_by) {
+  for (const auto& [id, body] : parts.turned_by)
     if (parts.node_position.contains(id))
       body.second->fail(fmt::format("ROT NODE {} carries an element, spring or mass too, which is not read", id),
                         "give it to the REF NODE, whose rotations are degrees of freedom 4 to 6");
-  }
   read_inp_stage(parts, stage);
   name_points(parts);
   return parts.finished({file.files().begin(), file.files().end()}, "*ELEMENT cards with their sections");

@@ -94,18 +94,16 @@ void InpFile::append(const std::filesystem::path& file, std::vector<std::filesys
       throw InputError({file.string(), number, ""}, "data stand before the first card", "begin the file with *HEADING");
     } else {
       InpCard& card = cards_.back();
-      if (takes_no_data(card.keyword)) {
+      if (takes_no_data(card.keyword))
         throw InputError({file.string(), first, card.label}, "a data line stands under this card, which takes none",
                          "take the line out, or write the card that it belongs to above it");
-      }
       card.data.push_back({{&path, first, card.label}, card.keyword == "HEADING" ? std::vector{line} : split_line(pending)});
     }
     pending.clear();
   }
-  if (!pending.empty()) {
+  if (!pending.empty())
     throw InputError({file.string(), stream.number() - 1, ""}, "the file ends within a line that a comma continues",
                      "complete the line");
-  }
   open.pop_back();
 }
 

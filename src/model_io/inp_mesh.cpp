@@ -138,10 +138,9 @@ void read_inp_set(InpParts& parts, const InpCard& card) {
     if (card.has("GENERATE")) {
       const long first = line.integer(0), last = line.integer(1);
       const long step = line.fields.size() > 2 ? line.integer(2) : 1;
-      if (step < 1 || last < first || (last - first) / step > 10'000'000) {
+      if (step < 1 || last < first || (last - first) / step > 10'000'000)
         line.fail(fmt::format("'{}, {}, {}' is no range: first, last, step", first, last, step),
                   "first must not lie above last, step is 1 or more");
-      }
       const long offset = generate_offset(parts, line, numbered, of_nodes);
       for (long id = first; id <= last; id += step) add_to_set(parts, sets, name, id + offset);
       continue;
@@ -274,10 +273,9 @@ std::vector<InpElement*> InpParts::elements_of(const InpCard& card, InpKind kind
   std::vector<InpElement*> found;
   for (const long id : set(element_sets, card, card.required("ELSET")).members) {
     const auto element = elements.find(id);
-    if (element == elements.end()) {
+    if (element == elements.end())
       card.fail(fmt::format("set '{}' holds element {}, which no *ELEMENT defines", card.get("ELSET"), id),
                 "define it, or take it out of the set");
-    }
     const InpKind is = inp_kind(element->second.type);
     if (is != kind && is != or_kind)
       card.fail(fmt::format("element {} of its set is a {}", id, element->second.type), "such an element takes another card");

@@ -291,27 +291,24 @@ fe::Material& current_material(InpParts& parts, const InpCard& card) {
 
 const InpLine& one_line(const InpCard& card, const char* what) {
   if (card.data.empty()) card.fail("has no data line", fmt::format("give {} below it", what));
-  if (card.data.size() > 1) {
+  if (card.data.size() > 1)
     card.data[1].fail("has more than one data line: values that depend on temperature are not supported",
                       fmt::format("give {} at one temperature", what));
-  }
   return card.data.front();
 }
 
 /// The material of a beam as our own CalculiX files have it (inp_expanded_beam.hpp): one E, no Poisson's ratio, G12 and G13.
 void read_beam_constants(InpParts& parts, const InpCard& card, fe::Material& material) {
-  if (card.data.size() != 2) {
+  if (card.data.size() != 2)
     card.fail(fmt::format("has {} data lines, expected 2", card.data.size()),
               "give E1, E2, E3, nu12, nu13, nu23, G12, G13 on the first and G23 on the second");
-  }
   std::array<double, 9> constants{};
   for (std::size_t i = 0; i < 8; ++i) constants[i] = card.data[0].number(i);
   constants[8] = card.data[1].number(0);
   const bool one_modulus = constants[0] > 0.0 && constants[1] == constants[0] && constants[2] == constants[0];
-  if (!one_modulus || constants[3] != 0.0 || constants[4] != 0.0 || constants[5] != 0.0) {
+  if (!one_modulus || constants[3] != 0.0 || constants[4] != 0.0 || constants[5] != 0.0)
     card.data[0].fail("is orthotropic with several E or Poisson's ratios, which is not supported",
                       "give E and nu of an isotropic material");
-  }
   for (std::size_t i = 6; i < 9; ++i)
     if (constants[i] <= 0.0) card.data[i / 8].fail("a shear modulus is not above 0", "give G12, G13, G23 in Pa");
   material.youngs_modulus_Pa = constants[0];
@@ -356,10 +353,9 @@ void read_inp_elastic(InpParts& parts, const InpCard& card) {
   card.allow({"TYPE"});
   const std::string type = upper_case(card.get("TYPE", "ISOTROPIC"));
   if (type == "ENGINEERING CONSTANTS") return read_beam_constants(parts, card, material);
-  if (type != "ISOTROPIC" && type != "ISO") {
+  if (type != "ISOTROPIC" && type != "ISO")
     card.fail(fmt::format("TYPE={} is not supported, expected ISOTROPIC", type),
               "the members of a frame or deck are isotropic here; give E and nu");
-  }
   parts.second_shear_moduli.erase(static_cast<int>(parts.model.materials.size()) - 1);
   const InpLine& line = one_line(card, "E and nu");
   material.youngs_modulus_Pa = line.number(0);

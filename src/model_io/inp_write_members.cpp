@@ -36,10 +36,9 @@ void InpWriter::general_section(const std::string& set, const fe::Section& s, co
                            set, format_number(m.density_kg_m3), format_number(s.area_m2), format_number(s.inertia_y_m4),
                            format_number(s.inertia_yz_m4), format_number(s.inertia_z_m4), format_number(s.torsion_m4),
                            triple(n1), format_number(m.youngs_modulus_Pa), format_number(m.shear_modulus_Pa));
-  if (shear) {
+  if (shear)
     elements_ += fmt::format("*TRANSVERSE SHEAR STIFFNESS\n{}, {}\n", format_number(m.shear_modulus_Pa * s.shear_area_z_m2),
                              format_number(m.shear_modulus_Pa * s.shear_area_y_m2));
-  }
 }
 
 void InpWriter::expanded_section(const std::string& set, const fe::Section& s, const fe::Material& m,
@@ -56,19 +55,16 @@ void InpWriter::expanded_section(const std::string& set, const fe::Section& s, c
 void InpWriter::note_expansion(const fe::Section& s, const ExpandedBeam& beam) {
   constexpr double said_above = 1.2;  // a factor nearer to 1 is not worth a line
   const auto differs = [](double factor) { return factor > said_above || factor * said_above < 1.0; };
-  if (beam.scaled) {
+  if (beam.scaled)
     note(fmt::format(
         "section '{}' is written as the rectangle of its radii of gyration, in a material scaled to its stiffness and mass",
         s.name));
-  }
-  if (differs(beam.torsion[0]) || differs(beam.torsion[1])) {
+  if (differs(beam.torsion[0]) || differs(beam.torsion[1]))
     note(fmt::format("the torsional stiffness of section '{}' is {:.2f} (long elements) to {:.2f} times its own", s.name,
                      beam.torsion[0], beam.torsion[1]));
-  }
-  if (differs(beam.shear[0]) || differs(beam.shear[1])) {
+  if (differs(beam.shear[0]) || differs(beam.shear[1]))
     note(fmt::format("the shear stiffness of section '{}' is {:.2f} and {:.2f} times its own along y and z", s.name,
                      beam.shear[0], beam.shear[1]));
-  }
   if (s.inertia_yz_m4 != 0.0) note(fmt::format("the product of inertia of section '{}' is left out", s.name));
   if (!model_.formulation.shear_flexible) note("CalculiX's beams are flexible in shear, this model's are not");
 }
@@ -110,10 +106,9 @@ void InpWriter::beams() {
 }
 
 std::vector<long> InpWriter::beam_ends(const fe::Element& e, fe::BeamGeometry& geometry) {
-  if (e.releases != 0) {
+  if (e.releases != 0)
     throw InputError({model_.source, 0, "releases"}, fmt::format("beam {} releases its ends, which is not exported", e.id),
                      "model the hinge by two nodes and springs, or export without that member");
-  }
   geometry.orientation = e.orientation;
   geometry.offset_m = e.offset_m;
   std::vector<long> nodes;

@@ -29,11 +29,10 @@ std::string with_point(double value) {
 InpWriter::InpWriter(const fe::Model& model, const fe::PrestressState& state, InpFlavour flavour)
     : model_(model), state_(state), flavour_(flavour) {
   for (const fe::Node& node : model.nodes) {
-    if (node.id < 1 || node.id > 900'000'000) {
+    if (node.id < 1 || node.id > 900'000'000)
       throw InputError({model.source, 0, "node"},
                        fmt::format("node {} cannot be exported, expected numbers from 1 to 900000000", node.id),
                        "number the nodes anew");
-    }
     last_node_ = std::max(last_node_, node.id);
     nodes_ += fmt::format("{}, {}, {}, {}\n", node.id, format_number(node.x_m.x()), format_number(node.x_m.y()),
                           format_number(node.x_m.z()));
@@ -228,14 +227,12 @@ void refuse_what_cannot_be_said(const fe::Model& model) {
     refuse(fmt::format("element {}", element.id), "is a tapered beam, for which an .inp file of ours has no section",
            "divide it into uniform beams, or use --export-matrices");
   }
-  if (!model.matrix_elements.empty()) {
+  if (!model.matrix_elements.empty())
     refuse(fmt::format("matrix element '{}'", model.matrix_elements.front().name),
            "is given by its matrices, which an .inp file cannot hold", "leave it out, or use --export-matrices");
-  }
-  if (model.formulation.lumped_mass) {
+  if (model.formulation.lumped_mass)
     refuse("formulation.lumped_mass", "is true, but the elements of an .inp file have consistent masses",
            "set it to false, or use --export-matrices");
-  }
 }
 
 }  // namespace

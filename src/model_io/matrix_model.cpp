@@ -60,10 +60,9 @@ std::vector<fe::DofLabel> read_dofs(const std::filesystem::path& folder) {
   std::vector<fe::DofLabel> dofs;
   std::set<std::pair<std::string, int>> seen;
   for (std::size_t row = 0; row < table.rows(); ++row) {
-    if (table.integer(row, "dof") != static_cast<long>(row) + 1) {
+    if (table.integer(row, "dof") != static_cast<long>(row) + 1)
       table.fail(row, "dof", fmt::format("is {}, expected {}", table.text(row, "dof"), row + 1),
                  "rows stand in the order of the matrices and count from 1");
-    }
     fe::DofLabel dof;
     dof.node = table.text(row, "node");
     if (dof.node.empty()) table.fail(row, "node", "is empty", "name the node that the degree of freedom belongs to");
@@ -90,19 +89,17 @@ int add_parameter(const std::filesystem::path& file, const MatrixParameter& entr
   };
   if (!seen.emplace(entry.name, entry.target).second)
     throw refuse("appears twice with target " + entry.target, "give each parameter a name of its own");
-  if (!(entry.lower <= entry.initial && entry.initial <= entry.upper)) {
+  if (!(entry.lower <= entry.initial && entry.initial <= entry.upper))
     throw refuse(fmt::format("lower, initial, upper are {}, {}, {}, expected lower <= initial <= upper",
                              io::format_number(entry.lower), io::format_number(entry.initial), io::format_number(entry.upper)),
                  "put the bounds around the initial value");
-  }
   const fe::Target target = entry.target == "mass" ? fe::Target::matrix_mass : fe::Target::matrix_stiffness;
   for (std::size_t i = 0; i < system.parameters.size(); ++i) {
     const auto& known = system.parameters[i];
     if (known.name != entry.name) continue;
-    if (known.initial != entry.initial || known.lower != entry.lower || known.upper != entry.upper) {
+    if (known.initial != entry.initial || known.lower != entry.lower || known.upper != entry.upper)
       throw refuse("has other values for the mass than for the stiffness",
                    "give both entries the same initial value and bounds");
-    }
     return static_cast<int>(i);
   }
   system.parameters.push_back({entry.name,

@@ -155,10 +155,9 @@ fe::Parameter to_parameter(const std::filesystem::path& file, const fe::Model& m
                   entry.of,      entry.unit,
                   entry.initial, entry.lower,
                   entry.upper};
-  if (p.of.empty()) {
+  if (p.of.empty())
     throw key_error(file, anchor, key, "'of' is missing or empty",
                     fmt::format("name the {} that it applies to", kind_of(p.target)));
-  }
   const auto known = known_names(model, p.target);
   for (const auto& name : p.of) {
     if (position_of(name, known) >= 0) continue;
@@ -166,12 +165,11 @@ fe::Parameter to_parameter(const std::filesystem::path& file, const fe::Model& m
                     fmt::format("no {} is called '{}'{}", kind_of(p.target), name, did_you_mean(name, known)),
                     "'of' lists names of the model's own files");
   }
-  if (!(p.lower <= p.initial && p.initial <= p.upper)) {
+  if (!(p.lower <= p.initial && p.initial <= p.upper))
     throw key_error(file, anchor, key,
                     fmt::format("lower, initial, upper are {}, {}, {}, expected lower <= initial <= upper",
                                 io::format_number(p.lower), io::format_number(p.initial), io::format_number(p.upper)),
                     "put the bounds around the initial value");
-  }
   for (const auto& other : model.parameters)
     if (other.name == p.name) throw key_error(file, anchor, key, "appears twice", "give each parameter a name of its own");
   return p;
@@ -179,13 +177,12 @@ fe::Parameter to_parameter(const std::filesystem::path& file, const fe::Model& m
 
 fe::Prestress::Condition to_condition(const std::filesystem::path& file, const NameIndex& index, const std::string& text) {
   const auto [node, dof] = index.displacement(text);
-  if (node < 0 || dof < 0 || dof > 2) {
+  if (node < 0 || dof < 0 || dof > 2)
     throw key_error(
         file, "\"" + text + "\"", "prestress.conditions",
         fmt::format("'{}' is no displacement of a node of nodes.csv, expected \"node:direction\" with direction x, y or z",
                     text),
         "write for example \"17:z\"");
-  }
   return {node, dof};
 }
 

@@ -72,12 +72,11 @@ void read_shapes(const std::filesystem::path& file, const std::set<std::string>&
   for (std::size_t row = 0; row < table.rows(); ++row) {
     if (left_out.contains(table.text(row, "mode"))) continue;
     const auto mode = mode_at.find(table.text(row, "mode"));
-    if (mode == mode_at.end()) {
+    if (mode == mode_at.end())
       table.fail(row, "mode",
                  fmt::format("mode '{}' is not in modes.csv{}", table.text(row, "mode"),
                              did_you_mean(table.text(row, "mode"), modes.names)),
                  "shapes.csv lists modes of modes.csv");
-    }
     auto& value = modes.shapes(dof_at.at({table.text(row, "point"), table.text(row, "direction")}), mode->second);
     if (!std::isnan(value.real()))
       table.fail(row, "point", "this component of the mode stands twice", "remove one of the two rows");
@@ -102,10 +101,9 @@ void read_shapes(const std::filesystem::path& file, const std::set<std::string>&
 void write_modes(const modal::ModeSet& modes, const std::filesystem::path& folder) {
   io::CsvWriter writer({"mode", "frequency_Hz", "frequency_std_Hz", "damping_ratio_pct", "damping_ratio_std_pct"});
   const auto at = [](const Eigen::VectorXd& v, Eigen::Index i) { return i < v.size() ? v[i] : kUnknown; };
-  for (Eigen::Index i = 0; i < modes.size(); ++i) {
+  for (Eigen::Index i = 0; i < modes.size(); ++i)
     writer.row({modes.names[static_cast<std::size_t>(i)], modes.frequency_Hz[i], known(at(modes.frequency_std_Hz, i)),
                 percent(at(modes.damping_ratio, i)), percent(at(modes.damping_ratio_std, i))});
-  }
   writer.save(folder / "modes.csv");
   if (modes.has_shapes()) write_shapes(modes, folder / "shapes.csv");
 }
@@ -137,11 +135,10 @@ modal::ModeSet read_modes(const std::filesystem::path& folder, std::vector<long>
     if (lines != nullptr) lines->push_back(table.line(row));
     const auto i = static_cast<Eigen::Index>(modes.names.size()) - 1;
     modes.frequency_Hz[i] = table.number(row, "frequency_Hz");
-    if (modes.frequency_Hz[i] < 0.0 || modes.frequency_Hz[i] > kHighestFrequency_Hz) {
+    if (modes.frequency_Hz[i] < 0.0 || modes.frequency_Hz[i] > kHighestFrequency_Hz)
       table.fail(row, "frequency_Hz",
                  fmt::format("is {}, expected a value from 0 to {:g}", table.text(row, "frequency_Hz"), kHighestFrequency_Hz),
                  "frequencies are in Hz");
-    }
     modes.frequency_std_Hz[i] = table.number_or(row, "frequency_std_Hz", kUnknown);
     if (modes.frequency_std_Hz[i] > kHighestFrequency_Hz)
       table.fail(row, "frequency_std_Hz",

@@ -41,10 +41,9 @@ int read_section(const io::CsvTable& table, std::size_t row, const NameIndex& in
 fe::ElementType read_type(const io::CsvTable& table, std::size_t row) {
   const std::string type = table.text(row, "type");
   const int position = position_of(type, element_type_names());
-  if (position < 0) {
+  if (position < 0)
     table.fail(row, "type", fmt::format("unknown element type '{}'{}", type, did_you_mean(type, element_type_names())),
                "use " + one_of(element_type_names()));
-  }
   return static_cast<fe::ElementType>(position);
 }
 
@@ -95,25 +94,22 @@ void check_length(const io::CsvTable& table, std::size_t row, const fe::Model& m
 void check_section(const io::CsvTable& table, std::size_t row, const fe::Model& model, const fe::Element& element) {
   if (element.type == fe::ElementType::solid) return;
   const fe::Section& section = model.sections[static_cast<std::size_t>(element.section)];
-  if (element.type == fe::ElementType::shell && section.thickness_m <= 0.0) {
+  if (element.type == fe::ElementType::shell && section.thickness_m <= 0.0)
     table.fail(row, "section", fmt::format("section '{}' has no thickness, which a shell needs", section.name),
                "fill thickness_m in sections.csv");
-  }
-  if (element.type != fe::ElementType::shell && section.area_m2 <= 0.0) {
+  if (element.type != fe::ElementType::shell && section.area_m2 <= 0.0)
     table.fail(row, "section", fmt::format("section '{}' has no area, which a {} needs", section.name, name_of(element.type)),
                "fill area_m2 in sections.csv");
-  }
 }
 
 /// A number that must not be negative (or, `strict`, must be positive).
 double at_least_zero(const io::CsvTable& table, std::size_t row, const std::string& column, double fallback,
                      bool strict = false) {
   const double value = table.number_or(row, column, fallback);
-  if (value < 0.0 || (strict && value == 0.0)) {
+  if (value < 0.0 || (strict && value == 0.0))
     table.fail(row, column,
                fmt::format("is {}, expected a value {} 0", io::format_number(value), strict ? "above" : "of at least"),
                "give the value in SI units, as the unit in the column's name says");
-  }
   return value;
 }
 
@@ -199,18 +195,16 @@ void read_elements(const std::filesystem::path& folder, fe::Model& model, const 
     e.orientation = read_vector(table, row, "orientation", "");
     e.offset_m = {read_vector(table, row, "offset1", "_m"), read_vector(table, row, "offset2", "_m")};
     const long releases = table.integer_if(row, "releases").value_or(0);
-    if (releases < 0 || releases > 4095) {
+    if (releases < 0 || releases > 4095)
       table.fail(row, "releases", fmt::format("is {}, expected a sum of powers of two from 0 to 4095", releases),
                  "bit 0-5 releases local x y z rx ry rz of the first end, bit 6-11 those of the second");
-    }
     e.releases = static_cast<std::uint16_t>(releases);
     e.pull_N = table.number_or(row, "pull_N", 0.0);
     if (e.pull_N != 0.0 && e.type != fe::ElementType::stay && e.type != fe::ElementType::bar)
       table.fail(row, "pull_N", fmt::format("is filled, but a {} has no pull", name_of(e.type)), "leave the cell empty");
-    if (e.pull_N < 0.0) {
+    if (e.pull_N < 0.0)
       table.fail(row, "pull_N", fmt::format("is {}, expected a pull of at least 0", io::format_number(e.pull_N)),
                  "a stay cannot push");
-    }
     e.free_strain = table.number_or(row, "free_strain", 0.0);
     check_length(table, row, model, e);
     check_section(table, row, model, e);
@@ -259,10 +253,9 @@ void read_materials(const std::filesystem::path& folder, fe::Model& model, NameI
     (void)table.number(row, "youngs_modulus_Pa");
     m.youngs_modulus_Pa = at_least_zero(table, row, "youngs_modulus_Pa", 0.0, true);
     m.poisson_ratio = table.number_or(row, "poisson_ratio", 0.0);
-    if (m.poisson_ratio <= -1.0 || m.poisson_ratio >= 0.5) {
+    if (m.poisson_ratio <= -1.0 || m.poisson_ratio >= 0.5)
       table.fail(row, "poisson_ratio", fmt::format("is {}, expected a value in ]-1, 0.5[", io::format_number(m.poisson_ratio)),
                  "steel has 0.3, concrete 0.2");
-    }
     // An isotropic material needs two constants; the third follows where the column is empty.
     m.shear_modulus_Pa =
         at_least_zero(table, row, "shear_modulus_Pa", m.youngs_modulus_Pa / (2.0 * (1.0 + m.poisson_ratio)), true);
@@ -283,10 +276,9 @@ void read_sections(const std::filesystem::path& folder, fe::Model& model, NameIn
                   .inertia_y_m4 = at_least_zero(table, row, "inertia_y_m4", 0.0),
                   .inertia_z_m4 = at_least_zero(table, row, "inertia_z_m4", 0.0),
                   .inertia_yz_m4 = table.number_or(row, "inertia_yz_m4", 0.0)};
-    if (s.inertia_yz_m4 * s.inertia_yz_m4 > s.inertia_y_m4 * s.inertia_z_m4) {
+    if (s.inertia_yz_m4 * s.inertia_yz_m4 > s.inertia_y_m4 * s.inertia_z_m4)
       table.fail(row, "inertia_yz_m4", "is larger than sqrt(inertia_y inertia_z), which no section can have",
                  "check the three second moments of area");
-    }
     s.torsion_m4 = at_least_zero(table, row, "torsion_m4", 0.0);
     s.shear_area_y_m2 = at_least_zero(table, row, "shear_area_y_m2", 0.0);
     s.shear_area_z_m2 = at_least_zero(table, row, "shear_area_z_m2", 0.0);
@@ -350,10 +342,9 @@ void read_links(const std::filesystem::path& folder, fe::Model& model, const Nam
   for (std::size_t row = 0; row < table.rows(); ++row) {
     fe::RigidLink link{table.text(row, "link"), index.node(table, row, "master"), index.node(table, row, "slave")};
     if (link.master == link.slave) table.fail(row, "slave", "is the master itself", "link two nodes that differ");
-    if (!slaves.emplace(link.slave, row).second) {
+    if (!slaves.emplace(link.slave, row).second)
       table.fail(row, "slave", fmt::format("node {} is the slave of two links", table.text(row, "slave")),
                  "a node follows one master; turn one of the links around");
-    }
     model.links.push_back(std::move(link));
   }
 }

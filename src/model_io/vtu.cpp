@@ -131,10 +131,9 @@ void write_vtu(const fe::Model& model, const fe::ParametricSystem& system, const
   text += fmt::format("<Piece NumberOfPoints=\"{}\" NumberOfCells=\"{}\">\n<PointData>\n", model.nodes.size(),
                       model.elements.size());
   text += data_array("Int64", "node", 1, lines(model.nodes, [](const fe::Node& n) { return std::to_string(n.id); }));
-  for (Eigen::Index mode = 0; mode < full.cols(); ++mode) {
+  for (Eigen::Index mode = 0; mode < full.cols(); ++mode)
     text += data_array("Float64", fmt::format("mode_{:02d}_{:.4f}_Hz", mode + 1, modes.frequency_Hz[mode]), 3,
                        mode_vectors(full.col(mode)));
-  }
   text += "</PointData>\n<CellData>\n";
   text += data_array("Int64", "element", 1, lines(model.elements, [](const fe::Element& e) { return std::to_string(e.id); }));
   text += data_array("Int32", "group", 1,

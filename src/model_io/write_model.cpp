@@ -30,10 +30,9 @@ void write_parts(const fe::Model& model, const std::filesystem::path& folder) {
 
   io::CsvWriter sections({"section", "area_m2", "inertia_y_m4", "inertia_z_m4", "inertia_yz_m4", "torsion_m4",
                           "shear_area_y_m2", "shear_area_z_m2", "thickness_m", "bending_inertia_ratio"});
-  for (const auto& s : model.sections) {
+  for (const auto& s : model.sections)
     sections.row({s.name, s.area_m2, s.inertia_y_m4, s.inertia_z_m4, s.inertia_yz_m4, s.torsion_m4, s.shear_area_y_m2,
                   s.shear_area_z_m2, s.thickness_m, s.bending_inertia_ratio});
-  }
   sections.save(folder / "sections.csv");
 }
 
@@ -77,11 +76,10 @@ void write_elements(const fe::Model& model, const std::filesystem::path& folder)
 void write_constraints(const fe::Model& model, const std::filesystem::path& folder) {
   if (model.constraints.empty()) return;
   io::CsvWriter rows({"constraint", "node", "direction", "of_node", "of_direction", "factor"});
-  for (const fe::Constraint& c : model.constraints) {
+  for (const fe::Constraint& c : model.constraints)
     for (const fe::Constraint::Term& term : c.terms)
       rows.row({c.name, node_id(model, c.node), direction_names()[static_cast<std::size_t>(c.direction)],
                 node_id(model, term.node), direction_names()[static_cast<std::size_t>(term.direction)], term.factor});
-  }
   rows.save(folder / "constraints.csv");
 }
 
@@ -96,11 +94,10 @@ void write_attachments(const fe::Model& model, const std::filesystem::path& fold
 
   io::CsvWriter springs({"spring", "group", "node", "node2", "direction_x", "direction_y", "direction_z", "quantity",
                          "stiffness_N_m", "damping_N_s_m", "friction_N", "arrangement", "active"});
-  for (const auto& s : model.springs) {
+  for (const auto& s : model.springs)
     springs.row({s.name, s.group, node_id(model, s.node), node_id(model, s.node2), s.direction.x(), s.direction.y(),
                  s.direction.z(), s.rotation ? "rotation" : "translation", s.stiffness, s.damping, s.friction_N,
                  s.series ? "series" : "parallel", s.active ? 1 : 0});
-  }
   springs.save(folder / "springs.csv");
 
   io::CsvWriter links({"link", "master", "slave"});

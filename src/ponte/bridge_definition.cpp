@@ -34,10 +34,9 @@ fe::Section round_section(const std::string& name, double outer_m, double inner_
 }
 
 void check_wall(DefinitionFile& file, const std::string& path, double width_m, double wall_m) {
-  if (2 * wall_m >= width_m) {
+  if (2 * wall_m >= width_m)
     file.fail(path + ".wall", fmt::format("is {:g} m, expected less than half the width ({:g} m)", wall_m, width_m / 2),
               "correct the wall or the width");
-  }
 }
 
 /// Square hollow section of sharp corners: A = b² - (b-2t)², I = (b⁴ - (b-2t)⁴)/12, J = t (b-t)³ (Bredt), shear areas A/2 (two
@@ -142,20 +141,18 @@ std::vector<SlabZone> read_slab(DefinitionFile& file, const std::string& deck, c
     SlabZone z;
     z.group = "slab_" + deck + (zones.size() == 1 ? "" : "_" + zone);
     z.until = file.number(path + ".until", "", {0.0, 1.0});
-    if (z.until <= reached) {
+    if (z.until <= reached)
       file.fail(path + ".until", fmt::format("is {:g}, expected more than the zone before ({:g})", z.until, reached),
                 "order the zones from mid-length outwards");
-    }
     reached = z.until;
     z.thickness_m = file.number(path + ".thickness", "m", {1e-3, 5.0});
     z.bending_inertia_ratio = file.number(path + ".bending_inertia_ratio", "", kFactor);
     z.material = file.choice(path + ".material", materials);
     out.push_back(z);
   }
-  if (reached != 1.0) {
+  if (reached != 1.0)
     file.fail(slab + "." + zones.back() + ".until", fmt::format("is {:g}, expected 1 for the last zone", reached),
               "let the last zone reach the end of the deck");
-  }
   return out;
 }
 
@@ -166,11 +163,10 @@ DeckDefinition read_deck(DefinitionFile& file, const std::string& name, const st
   out.name = name;
   out.radius_m = file.number(path + ".radius", "m", kLength);
   out.length_m = file.number(path + ".length", "m", kLength);
-  if (out.length_m >= 3.0 * out.radius_m) {
+  if (out.length_m >= 3.0 * out.radius_m)
     file.fail(path + ".length",
               fmt::format("is {:g} m, expected less than three radii ({:g} m)", out.length_m, 3 * out.radius_m),
               "a deck that closes upon itself is no deck");
-  }
   out.end_y_m = file.number(path + ".end_y", "m", kCoordinate);
   out.crown_z_m = file.number(path + ".crown_z", "m", kCoordinate);
   out.rise_m = file.number(path + ".rise", "m", kCoordinate);
@@ -193,11 +189,10 @@ DeckDefinition read_deck(DefinitionFile& file, const std::string& name, const st
       file.number(path + ".bearing.bottom", "N/m", kStiffness), file.number(path + ".bearing.vertical", "N/m", kStiffness),
       file.number(path + ".bearing.radial", "N/m", kStiffness), file.number(path + ".bearing.tangential", "N/m", kStiffness)};
   const double last_stay = (out.stay.count - 1.5) * out.stay.spacing_m + out.stay.last_spacing_m;
-  if (last_stay >= out.length_m / 2) {
+  if (last_stay >= out.length_m / 2)
     file.fail(path + ".stay.count",
               fmt::format("puts the last stay at {:g} m, beyond the deck's end at {:g} m", last_stay, out.length_m / 2),
               "reduce the number or the spacing of the stays");
-  }
   return out;
 }
 
@@ -209,10 +204,9 @@ MastDefinition read_mast(DefinitionFile& file) {
   out.lean_rad = file.number("mast.lean", "rad", {-1.0, 1.0});
   const double diameter = file.number("mast.outer_diameter", "m", {0.01, 100.0});
   const double wall = file.number("mast.wall", "m", {1e-3, 10.0});
-  if (2 * wall >= diameter) {
+  if (2 * wall >= diameter)
     file.fail("mast.wall", fmt::format("is {:g} m, expected less than half the diameter ({:g} m)", wall, diameter / 2),
               "correct the wall or the diameter");
-  }
   const double steel_scale = file.number("mast.steel_scale", "", kFactor);
   out.steel = scaled(tube_section("mast_steel", diameter, wall), steel_scale);
   out.infill = scaled(solid_circle_section("mast_infill", diameter - 2 * wall), file.number("mast.infill_scale", "", kFactor));

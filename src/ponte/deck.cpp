@@ -66,10 +66,9 @@ void build_slab(ModelBuilder& builder, const DeckDefinition& deck, const MeshDef
     const std::size_t along = static_cast<std::size_t>(mesh.shells_per_panel_along), first = k / along * along;
     const SlabZone& zone = zone_at(deck, (nodes.lines[first].s_m + nodes.lines[first + along].s_m) / 2);
     const DeckNodes::Line &here = nodes.lines[k], &next = nodes.lines[k + 1];
-    for (std::size_t j = 0; j + 1 < here.across.size(); ++j) {
+    for (std::size_t j = 0; j + 1 < here.across.size(); ++j)
       builder.add_element(fe::ElementType::shell, zone.group, zone.material,
                           {here.across[j], next.across[j], next.across[j + 1], here.across[j + 1]});
-    }
   }
 }
 
@@ -129,11 +128,10 @@ void build_nonstructural_mass(ModelBuilder& builder, const DeckDefinition& deck,
   for (std::size_t k = 0; k < lines.size(); ++k) {
     const double before = k > 0 ? lines[k].s_m - lines[k - 1].s_m : 0.0;
     const double after = k + 1 < lines.size() ? lines[k + 1].s_m - lines[k].s_m : 0.0;
-    for (const int node : {lines[k].across.front(), lines[k].across.back()}) {
+    for (const int node : {lines[k].across.front(), lines[k].across.back()})
       builder.model.masses.push_back({.group = deck.name + "_nonstructural_mass",
                                       .node = node,
                                       .mass_kg = deck.nonstructural_mass_kg_m * (before + after) / 4});
-    }
   }
 }
 

@@ -129,11 +129,10 @@ std::string DefinitionFile::text(const std::string& path) {
 
 std::string DefinitionFile::choice(const std::string& path, const std::vector<std::string>& allowed) {
   const std::string value = text(path);
-  if (std::find(allowed.begin(), allowed.end(), value) == allowed.end()) {
+  if (std::find(allowed.begin(), allowed.end(), value) == allowed.end())
     fail(path,
          "is '" + value + "', expected one of " + fmt::format("{}", fmt::join(allowed, ", ")) + did_you_mean(value, allowed),
          "choose one of these");
-  }
   return value;
 }
 
@@ -184,10 +183,9 @@ void DefinitionFile::check_overrides(const std::string& table) {
     if (!path.starts_with("change.") && !path.starts_with("variant")) bridge.push_back(path);
   for (const std::string& key : paths_below(table)) {
     const std::string target = key.substr(table.size() + 1);
-    if (std::find(bridge.begin(), bridge.end(), target) == bridge.end()) {
+    if (std::find(bridge.begin(), bridge.end(), target) == bridge.end())
       fail(key, "overrides '" + target + "', which this file does not have" + did_you_mean(target, bridge),
            "name a key by its dotted path, for example \"mast.infill_z\"");
-    }
     values_.at(key).known = true;
   }
 }

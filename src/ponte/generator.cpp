@@ -29,10 +29,9 @@ std::vector<std::string> names_in(DefinitionFile& file, const std::string& list)
 std::size_t position(const DefinitionFile& file, const std::string& list, const std::vector<std::string>& names,
                      const std::string& name) {
   const auto found = std::find(names.begin(), names.end(), name);
-  if (found == names.end()) {
+  if (found == names.end())
     throw InputError({file.name(), 0, list}, "has no " + list + " '" + name + "'" + did_you_mean(name, names),
                      "name one of the " + list + "s of this file");
-  }
   return static_cast<std::size_t>(found - names.begin());
 }
 

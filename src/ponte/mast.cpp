@@ -44,11 +44,10 @@ MastNodes build_mast(ModelBuilder& builder, const BridgeDefinition& definition) 
   MastNodes out;
   for (const double z : heights(definition)) {
     const double up = z - mast.base_m.z();
-    if (up < 0.0 || up > mast.height_m + kSameHeight_m) {
+    if (up < 0.0 || up > mast.height_m + kSameHeight_m)
       throw InputError({definition.source, 0, "deck.*.stay.top_anchor_z"},
                        "puts a stay anchor at z = " + std::to_string(z) + " m, outside the mast",
                        "check top_anchor_z, anchor_pitch, ground_cable.mast_z and mast.height");
-    }
     out.by_z[z] = builder.add_node(mast.base_m + Eigen::Vector3d(0.0, up * std::tan(mast.lean_rad), up));
   }
   for (auto below = out.by_z.begin(), above = std::next(below); above != out.by_z.end(); ++below, ++above) {

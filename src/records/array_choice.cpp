@@ -55,12 +55,11 @@ ArrayChoice choose_arrays(const std::vector<NamedArray>& arrays, const std::vect
       best = i;
     }
   }
-  if (largest < 16.0) {
+  if (largest < 16.0)
     throw InputError({file, 0, ""},
                      fmt::format("holds no array of numbers of sixteen values or more{}{}", others.empty() ? "" : ": ",
                                  fmt::join(others, ", ")),
                      "store the samples of each measurement as a two-dimensional array of real numbers, samples x channels");
-  }
   const Index samples = arrays[best].longer();
   if (arrays[best].shorter() > 1) {
     choice.data = {best};

@@ -31,10 +31,9 @@ std::vector<std::string> condition_names(const fs::path& file) {
   if (!fs::exists(file)) return {};
   std::vector<std::string> names;
   for (const io::TomlEntry& entry : io::read_toml(file)) {
-    if (entry.value.as<io::TomlValue::Table>() == nullptr) {
+    if (entry.value.as<io::TomlValue::Table>() == nullptr)
       throw InputError({file.string(), entry.line, entry.key}, fmt::format("is {}, expected a table", io::shown(entry.value)),
                        "write [" + entry.key + "], and below it what is known of the condition");
-    }
     names.push_back(entry.key);
   }
   return names;
@@ -68,26 +67,23 @@ void check_record(const Campaign& campaign, const CampaignRecord& record, const 
     throw InputError({file.string(), record.line_of("channels"), "channels"}, "is empty", "list the columns of the record");
   std::set<std::string> seen;
   for (const std::string& name : record.channels) {
-    if (std::find(known.begin(), known.end(), name) == known.end()) {
+    if (std::find(known.begin(), known.end(), name) == known.end())
       throw InputError({file.string(), record.line_of("channels"), "channels"},
                        fmt::format("channel '{}' is not in channels.csv{}", name, did_you_mean(name, known)),
                        "add it there, or correct the name");
-    }
     if (!seen.insert(name).second)
       throw InputError({file.string(), record.line_of("channels"), "channels"}, fmt::format("names '{}' twice", name), "");
   }
-  if (!record.columns.empty() && record.columns.size() != record.channels.size()) {
+  if (!record.columns.empty() && record.columns.size() != record.channels.size())
     throw InputError({file.string(), record.line_of("columns"), "columns"},
                      fmt::format("has {} entries for {} channels", record.columns.size(), record.channels.size()),
                      "give each entry of `channels` its column in the file");
-  }
   const auto& conditions = campaign.conditions;
-  if (!conditions.empty() && std::find(conditions.begin(), conditions.end(), record.condition) == conditions.end()) {
+  if (!conditions.empty() && std::find(conditions.begin(), conditions.end(), record.condition) == conditions.end())
     throw InputError(
         {file.string(), record.line_of("condition"), "condition"},
         fmt::format("'{}' is no table of conditions.toml{}", record.condition, did_you_mean(record.condition, conditions)),
         "add a table [" + record.condition + "] there");
-  }
 }
 
 /// The rate that the file's stamps say. Where their unit is not known, it is the one that comes nearest to the rate stated.
@@ -106,19 +102,16 @@ double rate_beside(const RecordInfo& info, double stated_Hz) {
 std::string check_rate(const Campaign& campaign, const CampaignRecord& record, const RecordInfo& info) {
   const RecordClock& clock = info.clock;
   const Place place{record.file.string(), line_of(info, std::max(clock.steps_back, clock.changes_rate)), ""};
-  if (clock.reversed) {
+  if (clock.reversed)
     throw InputError({record.file.string(), 0, ""}, "the time runs backwards throughout",
                      "turn the order of its rows round, so that the first sample comes first");
-  }
-  if (clock.steps_back >= 0) {
+  if (clock.steps_back >= 0)
     throw InputError(place, "the time runs backwards at " + place_of(info, clock.steps_back),
                      "split the record there, or put its rows in the order of their time");
-  }
-  if (clock.changes_rate >= 0) {
+  if (clock.changes_rate >= 0)
     throw InputError(
         place, fmt::format("the time stamps run at different rates, at another from {} on", place_of(info, clock.changes_rate)),
         "give each rate its own record");
-  }
   for (const std::string& note : info.notes)
     if (note.find("different rates") != std::string::npos)
       throw InputError({record.file.string(), 0, ""}, note, "give each rate its own record");
@@ -129,11 +122,10 @@ std::string check_rate(const Campaign& campaign, const CampaignRecord& record, c
   const std::string said =
       fmt::format("{:.9g} Hz{} ({})", rate,
                   share > 0.0 ? fmt::format(" with a standard deviation of {:.2g} Hz", share * rate) : "", info.rate_source);
-  if (off > std::max(kSameRate, kDeviationsOfARate * share)) {
+  if (off > std::max(kSameRate, kDeviationsOfARate * share))
     throw InputError({(campaign.folder / "campaign.toml").string(), record.line_of("sampling_rate_Hz"), "sampling_rate_Hz"},
                      fmt::format("is {}, but {} runs at {}", stated, record.file.string(), said),
                      fmt::format("write sampling_rate_Hz = {:.9g}, or correct the times in the file", rate));
-  }
   if (off <= std::max(kDeviationsOfARate * share, 1e-6)) return "";
   return fmt::format("{}: runs at {}; sampling_rate_Hz = {}, which differs by {:.2g} %, is used", record.file.string(), said,
                      stated, 100.0 * off);
@@ -161,11 +153,10 @@ double gain_of(const Campaign& campaign, const CampaignRecord& record, std::size
   const std::string says =
       fmt::format("says that {} is in {}, but channels.csv has the quantity {}, the unit {} and the gain {:.6g}", channel.name,
                   unit, channel.quantity, channel.unit, channel.gain);
-  if (record.unit_from.empty() || (other_quantity && record.unit_from == "file")) {
+  if (record.unit_from.empty() || (other_quantity && record.unit_from == "file"))
     throw InputError({record.file.string(), 0, channel.name}, says,
                      "correct the one that is wrong, or say that channels.csv is right: unit_from = \"channels.csv\" in its "
                      "[[record]] of campaign.toml (unit_from = \"file\" takes the file's unit)");
-  }
   notes.push_back(fmt::format("{}: {}; {} is taken, as unit_from says", record.file.string(), says, record.unit_from));
   if (record.unit_from == "channels.csv") return channel.gain;
   const double own = si_factor(channel.unit);
@@ -202,11 +193,10 @@ void refuse_absurd(const RecordSamples& samples, const CampaignRecord& record) {
                        fmt::format("holds {:.6g} in sample {}, which no sensor gives", samples.values(t, c), t + 1),
                        "check the file and its type of numbers");
     }
-    if (peak > 0.0 && peak < kSmallestPeak) {
+    if (peak > 0.0 && peak < kSmallestPeak)
       throw InputError({record.file.string(), 0, record.channels[static_cast<std::size_t>(c)]},
                        fmt::format("holds nothing above {:.6g}, which no sensor gives", peak),
                        "check the file, its type of numbers and the channel's gain");
-    }
   }
 }
 
@@ -256,10 +246,9 @@ Campaign read_campaign(const fs::path& folder) {
   Campaign campaign;
   campaign.folder = folder;
   const fs::path file = folder / "campaign.toml";
-  if (!fs::exists(file)) {
+  if (!fs::exists(file))
     throw InputError({file.string(), 0, ""}, "is not there, expected one table [[record]] for each record",
                      "write it as docs/my_records.md says");
-  }
   campaign.channels = read_campaign_channels(folder / "channels.csv", campaign.warnings);
   campaign.conditions = condition_names(folder / "conditions.toml");
   const std::vector<RecordLines> lines = record_lines(file);
@@ -307,21 +296,19 @@ std::vector<RecordGroup> record_groups(const Campaign& campaign, const RecordCho
     if (group == groups.end()) group = groups.insert(groups.end(), {record.setup, record.condition, {}});
     if (!group->records.empty()) {
       const CampaignRecord& first = group->records.front();
-      if (record.sampling_rate_Hz != first.sampling_rate_Hz || record.channels != first.channels) {
+      if (record.sampling_rate_Hz != first.sampling_rate_Hz || record.channels != first.channels)
         throw InputError(
             {(campaign.folder / "campaign.toml").string(), record.line, "record"},
             fmt::format("differs in rate or channels from the record on line {} of the same setup and condition", first.line),
             "give it a setup of its own");
-      }
     }
     group->records.push_back(record);
   }
-  if (groups.empty() && !or_none) {
+  if (groups.empty() && !or_none)
     throw InputError({(campaign.folder / "campaign.toml").string(), 0, "record"},
                      fmt::format("no record has setup '{}', condition '{}', kind '{}'; there are {}", choice.setup,
                                  choice.condition, choice.kind, fmt::join(there, ", ")),
                      "choose by --set setup=…, condition=…, kind=…");
-  }
   // Conditions stay together, in the order in which they first appear.
   std::vector<std::string> order;
   for (const RecordGroup& group : groups)

@@ -41,18 +41,16 @@ void read_place(const io::CsvTable& table, std::size_t row, CampaignChannel& cha
     channel.direction[k] = table.number_or(row, cosine, channel.direction[k]);
     given += table.number_if(row, cosine) ? 1 : 0;
   }
-  if (given == 3 && channel.direction.norm() == 0.0) {
+  if (given == 3 && channel.direction.norm() == 0.0)
     table.fail(row, "dx", "dx, dy, dz are all 0: a channel measures along some direction",
                "give its direction cosines, for example 0,0,1 for upwards, or leave the three cells empty");
-  }
   if (const double length = channel.direction.norm(); given == 3 && std::abs(length - 1.0) > kLengthTolerance)
     table.fail(row, "dx", fmt::format("direction cosines have length {:.3f}, expected 1", length), "give a unit vector");
-  if (given == 1 || given == 2) {
+  if (given == 1 || given == 2)
     table.fail(row, "dx",
                fmt::format("{} of the direction cosines dx, dy, dz {} given, expected three or none", given,
                            given == 1 ? "is" : "are"),
                "write 0 where the channel does not measure");
-  }
 }
 
 /// @return true for volts and counts whose gain is 1, so that nothing turns them into SI units
@@ -63,19 +61,17 @@ bool check_unit(const io::CsvTable& table, std::size_t row, const CampaignChanne
   const auto known = records::recorded_unit(channel.unit);
   if (!known) table.fail(row, "unit", fmt::format("is '{}', which is no unit of a record", channel.unit), usual);
   if (known->si_factor == 0.0) return channel.gain == 1.0;
-  if (known->quantity != channel.quantity) {
+  if (known->quantity != channel.quantity)
     table.fail(
         row, "unit",
         fmt::format("is '{}', a unit of {}, but the channel's quantity is {}", channel.unit, known->quantity, channel.quantity),
         "correct one of the two");
-  }
   const double ratio = std::abs(channel.gain) / known->si_factor;
-  if (ratio > kLargestCalibration || ratio < 1.0 / kLargestCalibration) {
+  if (ratio > kLargestCalibration || ratio < 1.0 / kLargestCalibration)
     table.fail(row, "gain",
                fmt::format("is {:.6g}, but the unit is '{}': recorded numbers in it take {:.6g} to SI units", channel.gain,
                            channel.unit, known->si_factor),
                "the gain alone converts: correct it, or the unit of the recorded numbers");
-  }
   return false;
 }
 
@@ -111,13 +107,12 @@ std::vector<CampaignChannel> read_campaign_channels(const std::filesystem::path&
     if (check_unit(table, row, channel)) without_scale.push_back(fmt::format("{} in {}", channel.name, channel.unit));
     channels.push_back(channel);
   }
-  if (!without_scale.empty()) {
+  if (!without_scale.empty())
     warnings.push_back(
         fmt::format("{}: recorded with gain 1 and no unit of motion: {}. Frequencies and damping need no scale, but shapes "
                     "need the same for "
                     "all channels, and RMS values and spectra are not in SI units",
                     file.string(), fmt::join(without_scale, ", ")));
-  }
   return channels;
 }
 

@@ -68,10 +68,9 @@ ColumnMatch by_other_names(const RecordInfo& info, const std::vector<std::string
 Index position_of(const std::vector<std::string>& names, const std::string& name, const std::filesystem::path& file) {
   const auto at = std::find(names.begin(), names.end(), name);
   if (at == names.end()) return -1;
-  if (std::find(at + 1, names.end(), name) != names.end()) {
+  if (std::find(at + 1, names.end(), name) != names.end())
     throw InputError({file.string(), 0, name}, "names two columns of the file",
                      fmt::format("{} (\"column 3\" means the third)", kByKey));
-  }
   return at - names.begin();
 }
 
@@ -92,18 +91,16 @@ ColumnMatch by_key(const RecordInfo& info, const std::vector<std::string>& colum
     if (const Index number = column_number(column); at < 0 && number > 0) {
       const auto found =
           std::find_if(info.channels.begin(), info.channels.end(), [&](const ChannelInfo& c) { return c.position == number; });
-      if (found == info.channels.end()) {
+      if (found == info.channels.end())
         throw InputError({file.string(), 0, column},
                          fmt::format("is no channel of the file, which has columns {} to {}", info.channels.front().position,
                                      info.channels.back().position),
                          "correct `columns` in campaign.toml; the time's column is no channel");
-      }
       at = found - info.channels.begin();
     }
-    if (at < 0) {
+    if (at < 0)
       throw InputError({file.string(), 0, column}, "is no column of the file" + did_you_mean(column, names),
                        fmt::format("correct `columns` in campaign.toml; the file has {}", fmt::join(names, ", ")));
-    }
     match.columns.push_back(at);
   }
   return match;
@@ -133,12 +130,11 @@ ColumnMatch match_columns(const RecordInfo& info, const std::vector<std::string>
   }
   if (match.columns.size() == channels.size()) return match;
   if (ColumnMatch other = by_other_names(info, channels, file); !other.columns.empty()) return other;
-  if (!misplaced.empty()) {
+  if (!misplaced.empty())
     throw InputError(
         {file.string(), info.unaligned_line, misplaced},
         fmt::format("is one of {} names over rows of another width, so that none can be told", info.unaligned_header.size()),
         "give each column a name");
-  }
   if (!match.columns.empty()) {
     std::vector<std::string> left;  // names that are not already somebody else's
     std::copy_if(names.begin(), names.end(), std::back_inserter(left),
@@ -147,17 +143,15 @@ ColumnMatch match_columns(const RecordInfo& info, const std::vector<std::string>
                      "is no channel of the file, which names others that were asked for" + did_you_mean(missing, left),
                      fmt::format("correct `channels` in campaign.toml; the file has {}", fmt::join(names, ", ")));
   }
-  if (info.channels.size() != channels.size()) {
+  if (info.channels.size() != channels.size())
     throw InputError({file.string(), 0, ""},
                      fmt::format("has {} columns, but campaign.toml names {} channels, none of which the file names: {}",
                                  info.channels.size(), channels.size(), its_names(info)),
                      kByKey);
-  }
   for (Index c = 0; c < std::ssize(info.channels); ++c) match.columns.push_back(c);
-  if (info.has_header) {
+  if (info.has_header)
     match.warning = fmt::format("{}: names none of its channels ({}), which are taken by position; {}", file.string(),
                                 its_names(info), kByKey);
-  }
   return match;
 }
 

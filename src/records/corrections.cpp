@@ -219,12 +219,11 @@ void correct(const std::vector<Correction>& corrections, modal::ModeSet& modes, 
   for (const modal::ShapeDof& dof : modes.dofs) names.push_back(dof.direction);
   refuse_unknown_channels(corrections, names, source);
   for (const Correction& c : corrections) {
-    for (const std::string& name : {c.channel, c.with}) {
+    for (const std::string& name : {c.channel, c.with})
       if (std::count(names.begin(), names.end(), name) > 1)
         throw InputError({c.place.file, c.place.line, "channel"},
                          fmt::format("'{}' stands at several points of {}", name, source),
                          "name the channel as the direction of its rows in shapes.csv");
-    }
   }
   const Eigen::MatrixXcd recorded = modes.shapes;
   for (std::size_t i = 0; i < names.size(); ++i) {

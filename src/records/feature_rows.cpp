@@ -196,12 +196,11 @@ Index first_dependent_row(const Eigen::MatrixXd& correlation) {
 }
 
 void check_entries(const Eigen::MatrixXd& c, const Refusal& refuse) {
-  for (Index i = 0; i < c.rows(); ++i) {
+  for (Index i = 0; i < c.rows(); ++i)
     if (!std::isfinite(c(i, i)) || c(i, i) < least_variance || c(i, i) > most_variance)
       refuse(fmt::format("the variance of row {} of rows.csv is {:g}, expected a positive number from {:g} to {:g}", i + 1,
                          c(i, i), least_variance, most_variance),
              "entry (i, i) is the square of the standard deviation of row i, in the row's unit");
-  }
   for (Index i = 0; i < c.rows(); ++i) {
     for (Index j = 0; j < i; ++j) {
       const double scale = std::sqrt(c(i, i)) * std::sqrt(c(j, j));

@@ -50,12 +50,10 @@ matching::Measured assemble_measured(const io::CsvTable& table, const std::vecto
                                      std::map<std::string, MeasuredMode>& found, std::vector<matching::Channel> channels) {
   matching::Measured measured;
   std::vector<std::string> order = names;
-  for (const std::string& name : order) {
-    if (std::isnan(found.at(name).frequency)) {
+  for (const std::string& name : order)
+    if (std::isnan(found.at(name).frequency))
       table.fail(found.at(name).row, "mode", fmt::format("mode {} has no row of type frequency_Hz", name),
                  "add its frequency, or remove its other rows");
-    }
-  }
   std::ranges::stable_sort(order, [&](const auto& a, const auto& b) { return found.at(a).frequency < found.at(b).frequency; });
   const auto n = static_cast<Index>(order.size());
   modal::ModeSet& modes = measured.modes;
@@ -145,10 +143,9 @@ matching::Measured read_measured_features(const std::filesystem::path& folder, c
     enter(row, mode->second);
     entered.push_back(at);
   }
-  if (names.empty()) {
+  if (names.empty())
     throw InputError({(folder / "rows.csv").string(), 0, ""}, fmt::format("has no modes of condition '{}'", chosen),
                      "check the column `condition`, or take another condition (--condition)");
-  }
   matching::Measured measured = assemble_measured(read.table, names, found, std::move(channels));
   take_rows(read, entered, measured);
   measured.source = folder.string();

@@ -178,10 +178,9 @@ std::vector<matching::Channel> read_channels(const std::filesystem::path& file) 
 }
 
 std::vector<MeasuredCondition> read_conditions(const std::filesystem::path& file) {
-  if (!std::filesystem::exists(file)) {
+  if (!std::filesystem::exists(file))
     throw InputError({file.string(), 0, ""}, "is not there, expected one table for each condition of rows.csv",
                      "write the file; the tables may be empty");
-  }
   std::vector<MeasuredCondition> conditions;
   for (const io::TomlEntry& entry : io::read_toml(file)) {
     const auto* table = entry.value.as<io::TomlValue::Table>();

@@ -323,11 +323,10 @@ RecordInfo scan_hdf5(const fs::path& file, const Visitor& visit) {
     const Index first_channel = matrix ? 0 : static_cast<Index>(k);
     for (Index at = 0; at < samples; at += chunk) {
       const Index n = std::min(chunk, samples - at);
-      if (along_rows) {
+      if (along_rows)
         time_columns(at, first_channel, part(dataset.get(), 0, at, array.rows, n, file.string()).transpose());
-      } else {
+      else
         time_columns(at, first_channel, part(dataset.get(), at, 0, n, array.columns, file.string()));
-      }
     }
   }
   const Index columns = std::ssize(info.channels);

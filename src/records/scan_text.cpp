@@ -200,13 +200,12 @@ RecordInfo scan_text(const fs::path& file, const Visitor& visit, const ReadOptio
       continue;
     }
     if (kind == Rows::Kind::stray) {
-      if (!options.skip_stray_lines) {
+      if (!options.skip_stray_lines)
         throw InputError(
             {file.string(), in.number(), ""},
             fmt::format("'{}' is no row of the table: it {}", trimmed(line).substr(0, 60), rows.problem()),
             fmt::format("{}, or set skip_stray_lines = true in its [[record]] of campaign.toml to leave out such lines",
                         rows.is_one_cell() ? "empty the cell, which then is a missing value" : "remove the line"));
-      }
       if (++stray == 1) first_stray = in.number();
       continue;
     }

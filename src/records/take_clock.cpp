@@ -52,10 +52,9 @@ void note_faults(RecordInfo& info) {
   if (clock.reversed) info.notes.push_back(info.rate_source + ": the time runs backwards throughout");
   if (clock.steps_back >= 0) info.notes.push_back("the time runs backwards at " + place_of(info, clock.steps_back));
   constexpr double even = 2.0;  // samples that stamps of their own may scatter about even ones
-  if (clock.shared_by == 1.0 && clock.scatter_s * clock.rate_Hz > even) {
+  if (clock.shared_by == 1.0 && clock.scatter_s * clock.rate_Hz > even)
     info.notes.push_back(fmt::format("the time stamps lie {:.3g} samples about even ones: the samples may not be evenly spaced",
                                      clock.scatter_s * clock.rate_Hz));
-  }
   if (clock.changes_rate >= 0)
     info.notes.push_back("the time stamps run at different rates, at another from " + place_of(info, clock.changes_rate) +
                          " on");
@@ -120,22 +119,20 @@ Samples on_the_clock(Samples samples, const RecordInfo& info, const fs::path& fi
   double lost = 0.0;
   for (const ClockGap& gap : clock.gaps) {
     lost += static_cast<double>(std::max<Index>(gap.samples, 0)) * static_cast<double>(samples.cols());
-    if (lost > kMostLost) {
+    if (lost > kMostLost)
       throw InputError({file.string(), line_of(info, gap.row), ""},
                        fmt::format("sample {} comes {:.6g} s after the row before it, a gap of {:.6g} samples", gap.row,
                                    static_cast<double>(gap.samples + 1) / clock.rate_Hz, static_cast<double>(gap.samples)),
                        "split the record where its clock jumps");
-    }
     const Index twice = -gap.samples;
     if (twice <= 0) continue;
     const bool there = gap.row >= twice && gap.row + twice <= samples.rows();
     const auto same = [&](double a, double b) { return a == b || (std::isnan(a) && std::isnan(b)); };
-    if (!there || !samples.middleRows(gap.row, twice).binaryExpr(samples.middleRows(gap.row - twice, twice), same).all()) {
+    if (!there || !samples.middleRows(gap.row, twice).binaryExpr(samples.middleRows(gap.row - twice, twice), same).all())
       throw InputError({file.string(), line_of(info, gap.row), ""},
                        fmt::format("the time runs backwards by {:.6g} s at {}, and the rows there are no copy of those before",
                                    static_cast<double>(twice) / clock.rate_Hz, place_of(info, gap.row)),
                        "split the record there: write the rows from there on into a file and a [[record]] of their own");
-    }
   }
   Samples whole(samples.rows() + clock.missing() - clock.repeated(), samples.cols());
   Index from = 0, to = 0;

@@ -263,12 +263,11 @@ void find_numbers_of_time(const std::vector<std::vector<std::string_view>>& rows
       return;
     }
     const double rate_Hz = stamps.distinct() == rows.size() ? stamps.clock(unit).rate_Hz : 0.0;
-    if (clock_Hz > 0.0 && rate_Hz > 0.0 && std::abs(rate_Hz / clock_Hz - 1.0) > other) {
+    if (clock_Hz > 0.0 && rate_Hz > 0.0 && std::abs(rate_Hz / clock_Hz - 1.0) > other)
       layout.notes.push_back(
           fmt::format("column {} runs at {:.6g} Hz, another of time at {:.6g} Hz: write the channels of each "
                       "clock into a file of their own",
                       c + 1, rate_Hz, clock_Hz));
-    }
     if (layout.time_column >= 0 && stamps.distinct() <= finest) return layout.other_times.push_back(c);
     clock_Hz = rate_Hz;
     leave_stamps(layout);
@@ -356,14 +355,12 @@ std::vector<std::string> first_lines(const fs::path& file, TextLayout& layout) {
   for (std::string line; lines.size() < kLines && bytes < kBytes && in.next(line);) {
     const long number = in.number();
     bytes += line.size();
-    if (line.size() > 1000000) {
+    if (line.size() > 1000000)
       throw InputError({file.string(), number, ""}, "has a line of over a million characters",
                        "check the file: it may be binary");
-    }
-    if (line.find('\0') != std::string::npos) {
+    if (line.find('\0') != std::string::npos)
       throw InputError({file.string(), number, ""}, "is neither text nor a known binary format",
                        "known are CSV, NPY, MAT 4, 5 and 7.3, HDF5, universal files");
-    }
     if (!is_utf8(line)) {
       layout.latin1 = true;
       line = from_latin1(line);

@@ -67,11 +67,10 @@ void read_lines(UniversalLines& in, UniversalData& data) {
     if (is_delimiter(line)) return finish();
     for (const double number : numbers_in(line)) {
       if (seen++ >= count && count > 0) break;
-      if (number == 0.0) {
+      if (number == 0.0)
         finish();
-      } else {
+      else
         chain.push_back(label_of(in, number));
-      }
     }
   }
   in.fail("breaks off in set 82", kCopyAgain);

@@ -40,10 +40,9 @@ std::string node_text(const UniversalData& data) {
   if (data.nodes.empty()) return "";
   std::string text = kDelimiter;
   text += "  2411\n";
-  for (const auto& [label, position] : data.nodes) {
+  for (const auto& [label, position] : data.nodes)
     text += fmt::format("{:>10}{:>10}{:>10}{:>10}\n{:>25.16E}{:>25.16E}{:>25.16E}\n", label, 1, 1, 11, position[0], position[1],
                         position[2]);
-  }
   return text + kDelimiter;
 }
 

@@ -21,11 +21,10 @@ std::vector<double> turning_points(const Eigen::Ref<const VectorXd>& history) {
   for (const double value : history) {
     if (!points.empty() && value == points.back()) continue;
     const std::size_t n = points.size();
-    if (n >= 2 && (points[n - 1] - points[n - 2]) * (value - points[n - 1]) > 0.0) {
+    if (n >= 2 && (points[n - 1] - points[n - 2]) * (value - points[n - 1]) > 0.0)
       points.back() = value;
-    } else {
+    else
       points.push_back(value);
-    }
   }
   return points;
 }

@@ -127,26 +127,23 @@ void check(const RandomInput& input) {
   const auto refuse = [&](const std::string& what, const std::string& mend) {
     throw InputError({"", 0, input.name}, what, mend);
   };
-  if (!(input.deviation >= 0.0) || !std::isfinite(input.deviation)) {
+  if (!(input.deviation >= 0.0) || !std::isfinite(input.deviation))
     refuse(fmt::format("has deviation {}, expected zero or more", input.deviation),
            "give the standard deviation as a positive number");
-  }
   if (!std::isfinite(input.mean)) refuse(fmt::format("has mean {}, expected a number", input.mean), "give the mean");
   if (input.low && input.high && !(*input.low < *input.high)) {
     refuse(fmt::format("has low = {} and high = {}, expected low < high", *input.low, *input.high), "exchange the two");
   }
   if (input.deviation == 0.0) return;
-  if ((input.kind == LawKind::lognormal || input.kind == LawKind::weibull) && !(input.mean > 0.0)) {
+  if ((input.kind == LawKind::lognormal || input.kind == LawKind::weibull) && !(input.mean > 0.0))
     refuse(fmt::format("has mean {}, and a {} law has values above zero alone", input.mean, law_name(input.kind)),
            "give a positive mean, or law normal");
-  }
   const double below = input.low ? probability(input, *input.low, false) : 0.0;
   const double above = input.high ? probability(input, *input.high, true) : 0.0;
-  if (!(below + above < 1.0 - 1e-12)) {
+  if (!(below + above < 1.0 - 1e-12))
     refuse(fmt::format("has no probability between low and high: mean {} and deviation {} put it outside", input.mean,
                        input.deviation),
            "widen the ends, or correct mean and deviation");
-  }
 }
 
 }  // namespace
@@ -175,17 +172,14 @@ RandomVector::RandomVector(std::vector<RandomInput> inputs, const MatrixXd& corr
   if (correlation.size() == 0) return;
   TWINDECK_ASSERT(correlation.rows() == static_cast<Index>(inputs_.size()) && correlation.cols() == correlation.rows());
   MatrixXd of_random(m, m);
-  for (Index i = 0; i < m; ++i) {
-    for (Index j = 0; j < m; ++j) {
+  for (Index i = 0; i < m; ++i)
+    for (Index j = 0; j < m; ++j)
       of_random(i, j) = correlation(static_cast<Index>(random_[static_cast<std::size_t>(i)]),
                                     static_cast<Index>(random_[static_cast<std::size_t>(j)]));
-    }
-  }
   const Eigen::LLT<MatrixXd> factor(of_random);
-  if (factor.info() != Eigen::Success || !of_random.diagonal().isOnes(1e-9)) {
+  if (factor.info() != Eigen::Success || !of_random.diagonal().isOnes(1e-9))
     throw InputError({"", 0, "correlation"}, "is no correlation matrix: it is not positive definite with ones on its diagonal",
                      "check the signs and sizes of the correlations");
-  }
   factor_ = factor.matrixL();
 }
 

@@ -134,10 +134,9 @@ SubsetResult subset_simulation(const LimitState& g, Index n, const SubsetOptions
   Chains chains(g, n, options);
   Level level = chains.first();
   const auto kept = static_cast<Index>(std::lround(options.level_share * options.samples));
-  if ((level.g.array() <= 0.0).all()) {
+  if ((level.g.array() <= 0.0).all())
     throw InputError({"", 0, "limit state"}, fmt::format("is exceeded in all of {} samples", options.samples),
                      "check the limit's value and sign");
-  }
   double logarithm = 0.0, variation = 0.0;
   for (result.levels = 1;; ++result.levels) {
     std::vector<Index> order(static_cast<std::size_t>(level.g.size()));

@@ -88,10 +88,9 @@ void check_wind_law(const WindLaw& law, const std::string& file) {
       break;
   }
   const double sum = std::accumulate(law.probability.begin(), law.probability.end(), 0.0);
-  if (std::abs(sum - 1.0) > kSumTolerance) {
+  if (std::abs(sum - 1.0) > kSumTolerance)
     throw InputError({file, 0, "probability"}, fmt::format("sums to {:.6g} over all classes, expected 1", sum),
                      "give each class its share of the time; divide all by their sum");
-  }
 }
 
 double OverSpeed::probability(double speed, double beyond) const {

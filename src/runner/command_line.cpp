@@ -32,9 +32,8 @@ std::string help_footer(const Step& step) {
 /// An option that is not known: names it and the nearest one.
 [[noreturn]] void refuse(const CLI::App& app, const std::string& word) {
   std::vector<std::string> known;
-  for (const CLI::Option* option : app.get_options()) {
+  for (const CLI::Option* option : app.get_options())
     for (const std::string& name : option->get_lnames()) known.push_back("--" + name);
-  }
   const std::string option = word.substr(0, word.find('='));
   if (option.starts_with("-")) {
     const std::string nearest = nearest_name(option, known);
@@ -54,19 +53,17 @@ std::string problem_of_seed(const std::string& text) {
 }
 
 void check_folder(const char* option, const std::optional<fs::path>& folder) {
-  if (folder && !fs::is_directory(*folder)) {
+  if (folder && !fs::is_directory(*folder))
     throw InputError({"command line", 0, option}, "'" + folder->string() + "' is no folder", "name a folder that exists");
-  }
 }
 
 /// Step 3 takes a universal file with modes and makes the folder of it that the others take.
 void check_modes(const Step& step, const std::optional<fs::path>& modes) {
   const bool is_file = modes && fs::is_regular_file(*modes);
   if (is_file && step.token == "s3_identification") return;
-  if (is_file) {
+  if (is_file)
     throw InputError({"command line", 0, "--modes"}, "'" + modes->string() + "' is a file, expected a folder with modes.csv",
                      "make one of a universal file: s3_identification --modes FILE --out DIR --set imported_std_pct=0.5");
-  }
   check_folder("--modes", modes);
 }
 
@@ -123,11 +120,10 @@ void add_common_options(CLI::App& app, CommandLine& line, Words& words) {
 void add_step_options(CLI::App& app, const Step& step, Words& words) {
   for (const Flag& flag : step.flags) {
     const std::string name = bare(flag.name);
-    if (flag.takes_value) {
+    if (flag.takes_value)
       app.add_option("--" + name, words.values[name], flag.meaning)->type_name("VALUE");
-    } else {
+    else
       app.add_flag("--" + name, words.switches[name], flag.meaning);
-    }
   }
 }
 
@@ -145,12 +141,10 @@ void take(const CLI::App& app, const Words& words, CommandLine& line) {
   line.modes = optional_path(words.modes);
   line.features = optional_path(words.features);
   if (words.seed_option->count() > 0) line.seed = static_cast<std::uint64_t>(words.seed);
-  for (const auto& [name, value] : words.values) {
+  for (const auto& [name, value] : words.values)
     if (app.count("--" + name) > 0) line.flags.emplace_back(name, value);
-  }
-  for (const auto& [name, on] : words.switches) {
+  for (const auto& [name, on] : words.switches)
     if (on) line.flags.emplace_back(name, "");
-  }
 }
 
 /// Whether the line asks for something that is printed instead of running the step: sets action and text.
@@ -201,10 +195,9 @@ CommandLine parse_command_line(int argc, char** argv, const Step& step) {
 
   take(app, words, line);
   if (asks_for_print(app, step, words, line)) return line;
-  if (line.out.empty()) {
+  if (line.out.empty())
     throw InputError({"command line", 0, "--out"}, "is missing",
                      "name the folder to write, for example --out results/x/" + step.token);
-  }
   if (!line.model || !fs::is_regular_file(*line.model) ||
       (line.model->extension() != ".inp" && !model_io::is_sap2000_file(*line.model) &&
        !model_io::is_nastran_file(*line.model) && !model_io::is_ansys_deck(*line.model)))
@@ -229,11 +222,10 @@ void ConfiguredInputs::apply(const Step& step, StepContext& context) const {
   const auto set = [&](const char* name, const std::string& configured, std::optional<fs::path>& folder) {
     if (folder || configured.empty()) return;
     const fs::path path = context.resolved(configured);
-    if (!fs::exists(path)) {
+    if (!fs::exists(path))
       throw InputError(step.fields.place_of(name).value_or(Place{"", 0, name}),
                        "is '" + path.string() + "', which is not there",
                        std::string("run the step or the script that writes it, or give --") + name + " DIR");
-    }
     folder = path;
   };
   set("model", model_, context.model);

@@ -127,14 +127,12 @@ void read_configuration(const CommandLine& line, Step& step, StepContext& contex
 /// files.
 void refuse_to_replace_foreign(const fs::path& folder, const std::string& token) {
   if (!fs::exists(folder) || (fs::is_directory(folder) && fs::is_empty(folder))) return;
-  if (!fs::is_directory(folder) || !io::is_step_folder(folder)) {
+  if (!fs::is_directory(folder) || !io::is_step_folder(folder))
     throw InputError({"command line", 0, "--out"}, "'" + folder.string() + "' exists and holds no results of a step",
                      "name another folder, or remove this one yourself");
-  }
-  if (const std::string owner = io::read_manifest(folder).step; owner != token) {
+  if (const std::string owner = io::read_manifest(folder).step; owner != token)
     throw InputError({"command line", 0, "--out"}, "'" + folder.string() + "' holds results of " + owner,
                      "name another folder");
-  }
 }
 
 /// The nearest folder above the results that exists must take them: said before a long computation, and by --check.
@@ -310,10 +308,9 @@ bool StepContext::has_flag(const std::string& name) const { return flag(name).ha
 
 fs::path StepContext::input(const fs::path& asked, std::uintmax_t most_bytes) {
   const fs::path path = shipped(asked);
-  if (!fs::exists(path)) {
+  if (!fs::exists(path))
     throw InputError({path.string(), 0, ""}, "does not exist",
                      "run the step that writes it, or point to your own data (--help)");
-  }
   const std::vector<fs::path> files = files_of(path);
   for (const fs::path& file : files)
     if (is_read_whole(file, path)) io::refuse_longer(file, most_bytes);

@@ -44,10 +44,9 @@ Status run(const steps::ModelConfig& config, const dynamics::ReadModel& read, bo
   steps::write_exports(loaded, modes, static_cast<int>(config.n_modes), context);
 
   // 4. The same modes on other meshes: how far this one is from converged.
-  if (!config.meshes.empty() && is_bridge) {
+  if (!config.meshes.empty() && is_bridge)
     steps::write_mesh_convergence(runner::read_study(context.study), config.variant, config.meshes,
                                   static_cast<int>(config.n_modes), context.out / "mesh_convergence.csv");
-  }
   return loaded.state.status.converged ? modes.status : loaded.state.status;
 }
 

@@ -32,20 +32,18 @@ matching::Pairing pair_for_updating(Reporter& reporter, const UpdatingSettings& 
   matching::refuse_few_pairs(account, config.least_paired, config.minimum_mac, measured.source, factor);
   if (factor) reporter.warn(*factor);
   if (const auto far = far_by_order(measured, pairing, modes.frequency_Hz, config.maximum_frequency_error)) reporter.warn(*far);
-  if (pairing.pairs.empty()) {
+  if (pairing.pairs.empty())
     throw InputError({measured.source, 0, ""}, "no measured mode has a computed partner",
                      "check frequencies and pairs, or raise maximum_frequency_error");
-  }
   return pairing;
 }
 
 std::vector<FrequencyTarget> frequency_targets(const matching::Measured& measured, const matching::Pairing& pairing) {
   std::vector<FrequencyTarget> targets;
-  for (const matching::ModePair& pair : pairing.pairs) {
+  for (const matching::ModePair& pair : pairing.pairs)
     targets.push_back(
         {measured.labels[static_cast<std::size_t>(pair.experimental)] + "-" + matching::numerical_label(pair.numerical),
          static_cast<int>(pair.numerical), measured.modes.frequency_Hz(pair.experimental)});
-  }
   return targets;
 }
 

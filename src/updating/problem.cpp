@@ -97,10 +97,9 @@ class RoundWatcher : public ceres::IterationCallback {
         projected_gradient(x_, residuals_.gradient(x_), round_.box, round_.options.bound_tolerance);
     if (summary.iteration > 0) {
       ++accepted_steps;
-      if (round_.accepted) {
+      if (round_.accepted)
         round_.accepted({round_.used + summary.iteration, summary.cost, projected.norm(), summary.step_norm,
                          summary.trust_region_radius, x_});
-      }
     }
     return meets_a_bound() || is_flat(projected) ? ceres::SOLVER_TERMINATE_SUCCESSFULLY : ceres::SOLVER_CONTINUE;
   }

@@ -69,10 +69,9 @@ StructureAnswer static_answer(const fe::Model& model, const fe::PrestressState& 
   for (Index i = 0; i < out.mass_kg_m.size(); ++i) {
     const KnownMass& known = data.masses[static_cast<std::size_t>(i)];
     out.mass_kg_m[i] = mass_of_groups(model, known.groups) / known.length_m;
-    if (out.mass_kg_m[i] == 0.0) {
+    if (out.mass_kg_m[i] == 0.0)
       throw InputError({model.source, 0, known.name}, "names groups that no part with mass of the model belongs to",
                        "give the beginnings of names of groups of the model");
-    }
   }
   if (data.limits.empty()) return out;
   std::vector<double> vertical;

@@ -55,11 +55,10 @@ std::vector<Shared> project_all(const fe::ParametricSystem& system, const std::v
     std::fill(column.begin() + system.pattern.outerIndexPtr()[j], column.begin() + system.pattern.outerIndexPtr()[j + 1], j);
   std::vector<Shared> out(terms.size());
   parallel_for(terms.size(), [&](std::size_t at) {
-    if (known_terms != nullptr && at < known_terms->size() && same_term(terms[at], (*known_terms)[at])) {
+    if (known_terms != nullptr && at < known_terms->size() && same_term(terms[at], (*known_terms)[at]))
       out[at] = (*known)[at];
-    } else {
+    else
       out[at] = std::make_shared<const MatrixXd>(project(system.pattern, column, terms[at], basis));
-    }
   });
   return out;
 }

@@ -24,26 +24,23 @@ void check_input(const fe::ParametricSystem& system, const std::vector<int>& act
   for (const int p : active) {
     TWINDECK_ASSERT(p >= 0 && p < static_cast<int>(system.parameters.size()));
     const fe::Parameter& parameter = system.parameters[static_cast<std::size_t>(p)];
-    if (!(std::isfinite(parameter.lower) && std::isfinite(parameter.upper) && parameter.lower < parameter.upper)) {
+    if (!(std::isfinite(parameter.lower) && std::isfinite(parameter.upper) && parameter.lower < parameter.upper))
       throw InputError({"", 0, parameter.name},
                        fmt::format("has the bounds [{}, {}], expected a finite lower bound below the upper one",
                                    parameter.lower, parameter.upper),
                        "give it a range in the model, or leave it out of the update");
-    }
-    if (parameter.initial < parameter.lower || parameter.initial > parameter.upper) {
+    if (parameter.initial < parameter.lower || parameter.initial > parameter.upper)
       throw InputError(
           {"", 0, parameter.name},
           fmt::format("starts at {}, outside its bounds [{}, {}]", parameter.initial, parameter.lower, parameter.upper),
           "move the initial value or the bounds");
-    }
   }
   for (const FrequencyTarget& target : targets) {
     if (!(target.measured_Hz > 0.0))
       throw InputError({"", 0, target.label}, fmt::format("is {} Hz, expected a frequency above 0", target.measured_Hz));
-    if (target.reference_mode < 0 || target.reference_mode >= system.size()) {
+    if (target.reference_mode < 0 || target.reference_mode >= system.size())
       throw InputError({"", 0, target.label}, fmt::format("asks for mode {} of a model with {} degrees of freedom",
                                                           target.reference_mode + 1, system.size()));
-    }
   }
 }
 
@@ -136,12 +133,11 @@ void collect(const Search& search, std::vector<SearchEnd>& ends, const Eigen::Ve
   result.followed_mac = best.evaluation.mac;
   result.at_optimum = {best.evaluation.residual, best.evaluation.jacobian, best.evaluation.predicted, best.evaluation.scales};
   if (best.result.converged) result.smooth = check_by_smooth_map(search, best);
-  if (!best.result.converged) {
+  if (!best.result.converged)
     result.status = {
         false, fmt::format("none of {} starts converged; the best (start {}) stopped with a relative projected gradient of "
                            "{:.1e}: {}",
                            ends.size(), result.best, best.result.relative_projected_gradient, best.result.message)};
-  }
 }
 
 // Residuals in standard deviations instead of relative frequencies, and what they are at the start.

@@ -30,13 +30,11 @@ double coefficient(const io::CsvTable& table, std::size_t row, const std::string
 std::string reduced_velocity_column(const io::CsvTable& table) {
   const bool f = table.has("V_over_fB"), omega = table.has("V_over_omegaB");
   if (f != omega) return f ? "V_over_fB" : "V_over_omegaB";
-  for (const std::string& column : table.columns()) {
-    if (!f && (column.starts_with("V") || column.starts_with("U") || column.starts_with("K"))) {
+  for (const std::string& column : table.columns())
+    if (!f && (column.starts_with("V") || column.starts_with("U") || column.starts_with("K")))
       throw InputError({table.file().string(), 1, column},
                        "does not say which reduced velocity it is: the two in use differ by 2 pi",
                        "name the column V_over_fB or V_over_omegaB");
-    }
-  }
   throw InputError({table.file().string(), 1, "V_over_fB"},
                    f ? "stands beside V_over_omegaB, expected one of them" : "is missing, and so is V_over_omegaB",
                    "give the reduced velocity in one column named V_over_fB or V_over_omegaB");
@@ -44,10 +42,9 @@ std::string reduced_velocity_column(const io::CsvTable& table) {
 
 Convention convention_of(const io::CsvTable& table) {
   const bool zasso = table.has("h1"), scanlan = table.has("H1");
-  if (zasso == scanlan) {
+  if (zasso == scanlan)
     throw InputError({table.file().string(), 1, "h1"}, zasso ? "stands beside H1: two conventions" : "is missing, and so is H1",
                      "give h1 ... a6 (Zasso) or H1 ... A6 (Scanlan)");
-  }
   return zasso ? Convention::zasso : Convention::scanlan;
 }
 
@@ -71,10 +68,9 @@ Polar read_polar(const std::filesystem::path& file) {
   const auto given = std::count_if(slopes.begin(), slopes.end(), [&](const std::string& name) { return table.has(name); });
   if (given != 0 && given != 3)
     throw InputError({file.string(), 1, "dC_L_per_rad"}, "only some of the three slopes are given", "give all three or none");
-  if (table.rows() == 1) {
+  if (table.rows() == 1)
     throw InputError({file.string(), 2, "alpha_deg"}, "is the only angle of attack, expected two or more",
                      "add the angles that the deck turns to");
-  }
   std::vector<double> alpha;
   std::vector<StaticCoefficients> rows;
   for (std::size_t i = 0; i < table.rows(); ++i) {
@@ -119,21 +115,19 @@ DerivativeTable read_flutter_derivatives(const std::filesystem::path& file, OutO
     add(alpha, a);
     add(speed, v);
   }
-  if (row_at.size() != alpha.size() * speed.size() || row_at.empty()) {
+  if (row_at.size() != alpha.size() * speed.size() || row_at.empty())
     throw InputError({file.string(), 0, velocity},
                      "the rows are not a full grid: " + std::to_string(row_at.size()) + " rows for " +
                          std::to_string(alpha.size()) + " angles and " + std::to_string(speed.size()) + " reduced velocities",
                      "give each angle of attack the same reduced velocities");
-  }
   std::array<DerivativeCurve, 18> curves;
   for (std::size_t d = 0; d < 18; ++d) {
     curves[d].v_over_omegaB = speed;
     curves[d].value.resize(static_cast<Eigen::Index>(alpha.size()), static_cast<Eigen::Index>(speed.size()));
     for (std::size_t i = 0; i < alpha.size(); ++i) {
-      for (std::size_t j = 0; j < speed.size(); ++j) {
+      for (std::size_t j = 0; j < speed.size(); ++j)
         curves[d].value(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j)) =
             coefficient(table, row_at.at({alpha[i], speed[j]}), name_of(convention, static_cast<int>(d)));
-      }
     }
   }
   return {convention, std::move(alpha), std::move(curves), file.string(), below, above};

@@ -267,11 +267,10 @@ std::vector<Index> starting_modes(const BridgeState& state, const CampaignSettin
     if (state.stay_share[j] < kMovesDecks) deck.push_back(j);
   std::vector<Index> named;
   for (const NamedMode& mode : settings.named) {
-    if (mode.deck_mode > std::ssize(deck)) {
+    if (mode.deck_mode > std::ssize(deck))
       throw InputError({"", 0, "mode.deck_mode"},
                        fmt::format("is {}, but only {} of the modes are the deck's", mode.deck_mode, deck.size()),
                        "raise `modes`");
-    }
     named.push_back(deck[static_cast<std::size_t>(mode.deck_mode - 1)]);
   }
   return named;

@@ -65,10 +65,9 @@ void write_damping(const std::vector<aero::DampingCurves>& curves, const std::fi
       {"set", "model", "dampers", "structural_damping_pct", "mode", "V_m_s", "frequency_Hz", "damping_ratio_pct"});
   for (const aero::DampingCurves& curve : curves) {
     for (const aero::Branch& branch : curve.branches) {
-      for (std::size_t i = 0; i < branch.points.size(); ++i) {
+      for (std::size_t i = 0; i < branch.points.size(); ++i)
         csv.row({curve.set, curve.model, on_off(curve.dampers), 100.0 * curve.structural_damping, branch.mode,
                  branch.speed_m_s[i], branch.points[i].frequency_Hz(), 100.0 * branch.points[i].damping_ratio()});
-      }
     }
   }
   csv.save(file);
@@ -175,12 +174,10 @@ void write_summary(const AerodynamicsConfig& config, const aero::WindModel& mode
     summary.row({"static_displacement_G_H", difference->displacement_m, "m"});
     summary.row({"static_rotation_G_H", difference->rotation_rad * degrees, "deg"});
   }
-  for (const aero::DampingCurves& curves : found.instabilities.damping) {
-    if (curves.dampers) {
+  for (const aero::DampingCurves& curves : found.instabilities.damping)
+    if (curves.dampers)
       summary.row(
           {"least_damping_with_dampers_" + curves.set, 100.0 * aero::least_damping(curves, config.design_speed_m_s), "%"});
-    }
-  }
   summary.save(file);
 }
 
@@ -218,11 +215,10 @@ void say_outcome(const runner::StepContext& context, const AerodynamicsConfig& c
                               row.dampers ? "damped" : "bare", 100.0 * row.structural_damping, config.max_speed_m_s));
     }
   }
-  for (const aero::DampingCurves& curves : found.damping) {
+  for (const aero::DampingCurves& curves : found.damping)
     for (const aero::Branch& branch : curves.branches)
       if (!branch.status.converged)
         context.say(curves.set + (curves.dampers ? ", with dampers: " : ": ") + branch.status.message);
-  }
 }
 
 Status run_aerodynamics(runner::StepContext& context, const AerodynamicsConfig& config,

@@ -18,10 +18,9 @@ namespace {
 std::vector<std::string> used_setups(const ponte::CampaignSettings& settings,
                                      const std::vector<sensors::LayoutChannel>& layout) {
   std::vector<std::string> used;
-  for (const std::string& name : sensors::setup_names(layout)) {
+  for (const std::string& name : sensors::setup_names(layout))
     if (std::ranges::any_of(settings.records, [&](const ponte::RecordSettings& r) { return r.setup == name; }))
       used.push_back(name);
-  }
   return used;
 }
 
@@ -90,21 +89,19 @@ void write_campaign_files(const ponte::CampaignSettings& settings, const std::ve
   write_channels(settings, layout, stays, folder / "channels.csv");
 
   std::string campaign = "# Virtual test campaign: records as the loggers wrote them.\n";
-  for (const RecordFile& f : files) {
+  for (const RecordFile& f : files)
     campaign += fmt::format(
         "\n[[record]]\nsetup = \"{}\"\nkind = \"{}\"\nfile = \"{}\"\nsampling_rate_Hz = {}\nchannels = {}\ncondition = "
         "\"{}\"\n",
         f.setup, f.kind, f.file, io::format_number(settings.rate_Hz), quoted(f.channels), f.condition);
-  }
   io::write_file_atomically(folder / "campaign.toml", campaign);
 
   std::string conditions;
   for (const ponte::ConditionSettings& c : settings.conditions) {
     conditions += fmt::format("{}[{}]\ndampers = \"{}\"\n", conditions.empty() ? "" : "\n", c.name, c.dampers ? "on" : "off");
-    if (const auto amplitude = amplitudes.find(c.name); amplitude != amplitudes.end()) {
+    if (const auto amplitude = amplitudes.find(c.name); amplitude != amplitudes.end())
       conditions += fmt::format("amplitude_m = {}\namplitude_channel = \"{}\"\n", io::format_number(amplitude->second.rms_m),
                                 amplitude->second.channel);
-    }
     conditions += fmt::format("temperature_C = {}\nwind_m_s = {}\npeople = {}\n", io::format_number(c.temperature_C),
                               io::format_number(c.wind_m_s), c.people);
   }
@@ -125,10 +122,9 @@ TruthTables::TruthTables()
 void TruthTables::add(const std::string& condition, const ponte::CampaignSettings& settings, const ponte::ConditionModel& model,
                       const ponte::TrueModes& modes, const std::vector<sensors::LayoutChannel>& layout,
                       const Eigen::MatrixXd& damper_force_N) {
-  for (Index i = 0; i < modes.frequency_Hz.size(); ++i) {
+  for (Index i = 0; i < modes.frequency_Hz.size(); ++i)
     modes_.row({condition, modes.name[static_cast<std::size_t>(i)], modes.frequency_Hz[i], 100.0 * modes.damping_ratio[i],
                 modes.stay_share[i]});
-  }
   std::set<std::string> seen;
   for (const std::string& setup : used_setups(settings, layout)) {
     const auto channels = sensors::channels_of(layout, setup);

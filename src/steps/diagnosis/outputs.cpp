@@ -215,10 +215,9 @@ void write_residuals(const Inference& inference, const Diagnosis& result, const 
 void write_hypotheses(const Diagnosis& result, const std::vector<diagnosis::Invisible>& invisible,
                       const std::filesystem::path& file) {
   io::CsvWriter csv({"cause", "location", "log_odds", "screen", "signature_sigma", "status"});
-  for (const auto& scored : result.ranking) {
+  for (const auto& scored : result.ranking)
     csv.row({scored.candidate->hypothesis->id, scored.candidate->location, scored.log_odds, scored.screen,
              scored.signature.norm(), scored.fitted ? "fitted" : "screened"});
-  }
   for (const auto& none : invisible) csv.row({none.hypothesis, "", "", "", "", "not visible: " + none.reason});
   csv.save(file);
 }

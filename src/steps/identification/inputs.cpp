@@ -21,11 +21,10 @@ std::filesystem::path default_campaign(const runner::StepContext& context) {
   const bool is_there = !context.study.empty() && std::filesystem::exists(own / "campaign.toml");
   if (is_there) return own;
   const std::filesystem::path simulated = context.results / "s0_campaign";
-  if (!context.study.empty() && !std::filesystem::exists(simulated)) {
+  if (!context.study.empty() && !std::filesystem::exists(simulated))
     throw InputError({own.string() + "/campaign.toml", 0, ""}, "does not exist, nor does " + simulated.string(),
                      "put your records there (docs/my_records.md), or run s0_campaign; whoever has modes and no records takes "
                      "s3_identification out of the steps in study.toml");
-  }
   return simulated;
 }
 
@@ -158,17 +157,15 @@ IdentificationInputs read_identification_inputs(const identification::Identifica
 
 std::optional<runner::Computation> imported_modes(double std_pct, runner::StepContext& context) {
   if (!context.modes) return std::nullopt;
-  if (std::filesystem::is_directory(*context.modes)) {
+  if (std::filesystem::is_directory(*context.modes))
     throw InputError({context.modes->string(), 0, ""}, "is a folder, expected a universal file with modes",
                      "give the folder to the step that compares with it: s4_refinement --modes DIR");
-  }
   records::UniversalModes read = records::read_universal_modes(context.record(*context.modes), std_pct);
   for (const std::string& note : read.notes) context.say(context.modes->string() + ": " + note);
-  if (std_pct == 0.0) {
+  if (std_pct == 0.0)
     context.warn(context.modes->string() +
                  ": has no standard deviations, and steps 4, 6 and 9 refuse modes without them; state what you assume, for "
                  "example --set imported_std_pct=0.5");
-  }
   return [read = std::move(read), &context]() -> Status {
     model_io::write_modes(read.modes, context.out);
     records::write_channels(read.channels, context.out / "channels.csv");
@@ -278,12 +275,11 @@ io::FieldTable IdentificationConfig::fields() {
         return io::FieldTable::Broken{"block_rows", "is 1, expected 2 or more, or 0", "leave it out, and the step chooses it"};
       })
       .rule([this]() -> std::optional<io::FieldTable::Broken> {
-        for (const identification::StaySettings& stay : stays) {
+        for (const identification::StaySettings& stay : stays)
           if (stay.bending_stiffness_N_m2 > 0.0 && stay.mass_kg_m <= 0.0)
             return io::FieldTable::Broken{"stay_length.bending_stiffness",
                                           "of " + stay.name + " is given without a mass, expected both",
                                           "give mass in kg/m too, or leave bending_stiffness out"};
-        }
         return std::nullopt;
       });
   return table;

@@ -86,13 +86,11 @@ std::string merged_name(const identification::ConditionResult& result, std::size
 void write_poles(const identification::ConditionResult& result, const fs::path& file) {
   io::CsvWriter csv({"setup", "order", "frequency_Hz", "damping_ratio_pct", "stable_frequency", "stable_damping",
                      "stable_shape", "mode", "condition"});
-  for (std::size_t s = 0; s < result.setups.size(); ++s) {
-    for (const identification::DiagramPole& p : result.setups[s].found.diagram) {
+  for (std::size_t s = 0; s < result.setups.size(); ++s)
+    for (const identification::DiagramPole& p : result.setups[s].found.diagram)
       csv.row({result.setups[s].conditioned.setup, p.pole.order, p.pole.frequency_Hz, 100.0 * p.pole.damping_ratio,
                p.stable_frequency ? 1 : 0, p.stable_damping ? 1 : 0, p.stable_shape ? 1 : 0, merged_name(result, s, p.mode),
                result.condition});
-    }
-  }
   csv.save(file);
 }
 
@@ -101,12 +99,10 @@ void write_spectra(const identification::ConditionResult& result, const fs::path
   io::CsvWriter singular({"setup", "frequency_Hz", "sv1", "sv2", "sv3", "condition"});
   for (const identification::SetupResult& setup : result.setups) {
     const std::string& name = setup.conditioned.setup;
-    for (std::size_t c = 0; c < setup.conditioned.channels.size(); ++c) {
-      for (Index f = 0; f < setup.spectra.frequency_Hz.size(); ++f) {
+    for (std::size_t c = 0; c < setup.conditioned.channels.size(); ++c)
+      for (Index f = 0; f < setup.spectra.frequency_Hz.size(); ++f)
         psd.row({setup.conditioned.channels[c].name, setup.spectra.frequency_Hz[f],
                  setup.spectra.density(f, static_cast<Index>(c)), name, result.condition});
-      }
-    }
     for (Index f = 0; f < setup.singular.frequency_Hz.size(); ++f) {
       const auto value = [&](Index k) {
         return k < setup.singular.values.cols() ? std::optional(setup.singular.values(f, k)) : std::nullopt;
@@ -148,10 +144,9 @@ void write_channels(const records::Campaign& campaign, const identification::Con
 void write_quality(const std::vector<identification::ChannelQuality>& rows, const std::filesystem::path& file) {
   io::CsvWriter csv({"setup", "record", "channel", "samples", "missing", "longest_gap", "clipped", "mean", "rms", "drift_rms",
                      "dead", "left_out", "lag_s", "lag_std_s"});
-  for (const identification::ChannelQuality& q : rows) {
+  for (const identification::ChannelQuality& q : rows)
     csv.row({q.setup, q.record, q.channel, q.samples, q.missing, q.longest_gap, q.clipped, q.mean, q.rms, q.drift,
              q.dead ? 1 : 0, q.left_out, q.lag_s, q.lag_std_s});
-  }
   csv.save(file);
 }
 
@@ -202,11 +197,10 @@ void write_features(const records::Campaign& campaign, const std::vector<identif
   for (const std::vector<io::Cell>& row : more) csv.row(row);
   csv.save(folder / "rows.csv");
   fs::copy_file(campaign.folder / "channels.csv", folder / "channels.csv");
-  if (campaign.conditions.empty()) {
+  if (campaign.conditions.empty())
     io::write_file_atomically(folder / "conditions.toml", tables_of(conditions));
-  } else {
+  else
     fs::copy_file(campaign.folder / "conditions.toml", folder / "conditions.toml");
-  }
   quality.insert(quality.end(), more_quality.begin(), more_quality.end());
   write_quality(quality, folder / "quality.csv");
 }
@@ -245,11 +239,10 @@ void write_decays(const std::vector<identification::DecayResult>& decays,
     }
     for (const identification::DecayResult::ByAmplitude& by : decay.by_amplitude) {
       const Eigen::VectorXcd& shape = decay.found.modes[by.found].shape;
-      for (const identification::AmplitudePoint& point : by.points) {
+      for (const identification::AmplitudePoint& point : by.points)
         levels.row({"free_decay", decay.conditioned.condition, decay.conditioned.setup, by.record, by.mode, point.amplitude,
                     identification::quantity_at_largest(decay.conditioned.channels, shape), point.frequency_Hz,
                     point.frequency_std_Hz, 100.0 * point.damping_ratio, 100.0 * point.damping_ratio_std, point.seconds});
-      }
     }
   }
   for (const identification::AmbientAmplitude& ambient : identification::ambient_amplitudes(results, config)) {
@@ -280,10 +273,9 @@ void write_stays(const std::vector<identification::StayResult>& stays, double le
                  {"hinged_probability", "clamped_probability", "numbering_probability", "residual", "harmonics", "level"});
   io::CsvWriter tensions(columns);
   for (const identification::StayResult& stay : stays) {
-    for (const identification::StayResult::Mode& mode : stay.modes) {
+    for (const identification::StayResult::Mode& mode : stay.modes)
       modes.row({stay.stay, stay.condition, mode.harmonic, mode.frequency_Hz, mode.frequency_std_Hz, 100.0 * mode.damping_ratio,
                  100.0 * mode.damping_ratio_std});
-    }
     if (!stay.fitted) continue;
     const identification::StayFit& fit = stay.fit;
     const bool has_length = stay.length_m > 0.0;
@@ -305,12 +297,10 @@ void write_stays(const std::vector<identification::StayResult>& stays, double le
 /// Rows `stay_frequency_Hz` of features/rows.csv: channel = the stay, mode = the harmonic.
 std::vector<std::vector<io::Cell>> stay_rows(const std::vector<identification::StayResult>& stays) {
   std::vector<std::vector<io::Cell>> rows;
-  for (const identification::StayResult& stay : stays) {
-    for (const identification::StayResult::Mode& mode : stay.modes) {
+  for (const identification::StayResult& stay : stays)
+    for (const identification::StayResult::Mode& mode : stay.modes)
       rows.push_back({"stay_frequency_Hz", std::to_string(mode.harmonic), stay.stay, stay.condition, mode.frequency_Hz,
                       mode.frequency_std_Hz});
-    }
-  }
   return rows;
 }
 

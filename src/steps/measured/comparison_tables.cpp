@@ -19,10 +19,9 @@ const std::string& label(const matching::Measured& measured, Index i) { return m
 void write_comparison(const std::vector<matching::ComparisonRow>& rows, const std::filesystem::path& folder) {
   io::CsvWriter csv(
       {"stage", "experimental_mode", "numerical_mode", "measured_Hz", "computed_Hz", "error_pct", "mac", "pairing"});
-  for (const matching::ComparisonRow& row : rows) {
+  for (const matching::ComparisonRow& row : rows)
     csv.row(
         {row.stage, row.experimental, row.numerical, row.measured_Hz, row.computed_Hz, row.error_pct(), row.mac, row.pairing});
-  }
   csv.save(folder / "comparison.csv");
 }
 
@@ -36,10 +35,9 @@ void write_mac(const matching::Measured& measured, const matching::Pairing& pair
 
 void write_pairs(const matching::Measured& measured, const matching::Pairing& pairing, const std::filesystem::path& folder) {
   io::CsvWriter csv({"experimental_mode", "numerical_mode", "mac", "clustered"});
-  for (const matching::ModePair& pair : pairing.pairs) {
+  for (const matching::ModePair& pair : pairing.pairs)
     csv.row({label(measured, pair.experimental), matching::numerical_label(pair.numerical), known(pair.mac),
              pair.clustered ? 1 : 0});
-  }
   csv.save(folder / "pairs.csv");
 }
 

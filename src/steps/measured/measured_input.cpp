@@ -56,15 +56,13 @@ matching::Measured read_measured_modes(const std::filesystem::path& folder, cons
   measured.modes = model_io::read_modes(folder, &lines);
   for (Eigen::Index i = 0; i < measured.modes.size(); ++i) {
     const std::string& name = measured.modes.names[static_cast<std::size_t>(i)];
-    if (!(measured.modes.frequency_std_Hz[i] > 0.0)) {
+    if (!(measured.modes.frequency_std_Hz[i] > 0.0))
       throw InputError({(folder / "modes.csv").string(), lines[static_cast<std::size_t>(i)], "frequency_std_Hz"},
                        fmt::format("mode {} has no standard deviation", name),
                        "state it; a frequency without one can't be weighed");
-    }
-    if (!(measured.modes.frequency_Hz[i] > 0.0)) {
+    if (!(measured.modes.frequency_Hz[i] > 0.0))
       throw InputError({(folder / "modes.csv").string(), lines[static_cast<std::size_t>(i)], "frequency_Hz"},
                        fmt::format("mode {} has no frequency above 0 Hz", name), "");
-    }
     measured.labels.push_back(matching::experimental_label(name));
     measured.rows.push_back({i, -1, false, measured.modes.frequency_Hz[i]});
   }
@@ -88,11 +86,10 @@ void warn_of_load_tests(const std::filesystem::path& folder, runner::StepContext
 
 std::optional<matching::Measured> find_measured(runner::StepContext& context, const std::string& condition) {
   if (context.modes) {
-    for (const char* flag : {"condition", "state"}) {
+    for (const char* flag : {"condition", "state"})
       if (context.has_flag(flag))
         throw InputError({"command line", 0, std::string("--") + flag},
                          "does not go with --modes: modes.csv knows no conditions", "leave it out, or give --features");
-    }
     return read_measured_modes(context.input(*context.modes), asked_choice(context));
   }
   std::filesystem::path folder;
@@ -106,11 +103,10 @@ std::optional<matching::Measured> find_measured(runner::StepContext& context, co
     warn_of_load_tests(folder, context);
     return measured;
   }
-  for (const runner::Flag& flag : measured_flags()) {
+  for (const runner::Flag& flag : measured_flags())
     if (context.has_flag(flag.name))
       throw InputError({"command line", 0, "--" + flag.name}, "is given, but no measured modes are",
                        "give --features DIR or --modes DIR");
-  }
   return std::nullopt;
 }
 

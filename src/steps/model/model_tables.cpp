@@ -146,10 +146,9 @@ void write_mesh_convergence(const runner::Study& study, const std::string& varia
   const auto write = [&](const std::string& mesh, const matching::SolvedModel& model) {
     const Eigen::Index count = std::min<Eigen::Index>(n_modes, own.modes.frequency_Hz.size());  // a small model may have fewer
     const matching::TrackedModes followed = follow(own, model, count);
-    for (Eigen::Index i = 0; i < count; ++i) {
+    for (Eigen::Index i = 0; i < count; ++i)
       csv.row({mesh, static_cast<long>(model.loaded.system.size()), static_cast<long>(i + 1), known(followed.frequency_Hz[i]),
                known(100.0 * (followed.frequency_Hz[i] / own.modes.frequency_Hz[i] - 1.0)), known(followed.mac[i])});
-    }
   };
   write(study.model_mesh, own);
   for (const std::string& mesh : meshes) write(mesh, solved(mesh));

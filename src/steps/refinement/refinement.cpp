@@ -103,11 +103,10 @@ matching::PairingAccount compare_with_measurement(runner::StepContext& context, 
   write_comparison(rows, context.out);
   write_mac(some, after, context.out);
   write_pairs(some, after, context.out);
-  if (!rows.empty()) {
+  if (!rows.empty())
     context.say(fmt::format("mean |error| of {} pairs: initial {:.2f} %, refined {:.2f} % (pairs by {}){}", after.pairs.size(),
                             matching::mean_abs_error_pct(rows, "initial"), matching::mean_abs_error_pct(rows, "refined"),
                             after.method, matching::pairing_words(account)));
-  }
   return account;
 }
 

@@ -45,10 +45,9 @@ void write_fragility(const std::vector<FragilityRow>& rows, const std::filesyste
 void write_responses(const std::vector<ResponseRow>& rows, const std::filesystem::path& folder) {
   io::CsvWriter csv({"model", "years", "dampers", "fault", "speed_m_s", "channel", "direction", "deviation", "unit",
                      "mean_rate_Hz", "bandwidth"});
-  for (const ResponseRow& row : rows) {
+  for (const ResponseRow& row : rows)
     csv.row({row.model, row.of.years, dampers(row.of), row.of.fault, row.speed_m_s, row.channel, row.direction,
              std::sqrt(row.moments.variance), row.unit, row.moments.mean_rate_Hz(), row.moments.bandwidth()});
-  }
   csv.save(folder / "responses.csv");
 }
 
@@ -97,20 +96,18 @@ void write_years(const std::vector<YearRow>& rows, const std::filesystem::path& 
 void write_rare(const std::vector<RareRow>& rows, const std::filesystem::path& folder) {
   io::CsvWriter csv({"limit_state", "model", "years", "dampers", "fault", "speed_m_s", "method", "probability", "beta",
                      "variation", "calls", "note"});
-  for (const RareRow& row : rows) {
+  for (const RareRow& row : rows)
     csv.row({row.limit_state, row.model, row.of.years, dampers(row.of), row.of.fault, row.speed_m_s, row.method,
              row.probability, row.beta, row.variation, row.calls, row.note});
-  }
   csv.save(folder / "rare.csv");
 }
 
 void write_fatigue(const std::vector<FatigueRow>& rows, const std::filesystem::path& folder) {
   io::CsvWriter csv({"stay", "model", "years", "dampers", "fault", "speed_m_s", "stress_deviation_Pa", "damage_per_hour",
                      "narrow_band_per_hour"});
-  for (const FatigueRow& row : rows) {
+  for (const FatigueRow& row : rows)
     csv.row({row.stay, row.model, row.of.years, dampers(row.of), row.of.fault, row.speed_m_s, row.stress_deviation_Pa,
              row.damage_per_hour, row.narrow_band_per_hour});
-  }
   csv.save(folder / "fatigue.csv");
 }
 

@@ -212,12 +212,11 @@ void add_rare(const ReliabilityConfig& config, const FragilityRow& row, const re
   subset_options.largest_levels = static_cast<int>(config.subset_levels);
   const reliability::FormResult points = reliability::form(g, n, form_options);
   const reliability::SubsetResult subset = reliability::subset_simulation(g, n, subset_options);
-  for (const Status& status : {points.status, subset.status}) {
+  for (const Status& status : {points.status, subset.status})
     if (!status.converged)
       found.rare_status = {false,
                            fmt::format("{} at {:g} m/s: {}; raise form_iterations or subset_levels, or take it out of rare",
                                        row.limit_state, row.speed_m_s, status.message)};
-  }
   if (!points.status.converged || !subset.status.converged) return;
   const reliability::DesignPoint& nearest = points.points.front();
   found.rare.push_back({row.limit_state, row.model, row.of, row.speed_m_s, "form", points.probability, nearest.beta,
@@ -293,12 +292,11 @@ void find_responses(const ReliabilityConfig& config, const ReliabilityInputs& re
           reliability::uncertain_moments(s.uncertain, response, speed, [&](const auto& mean) { return largest_rows(s, mean); });
     if (!moments.stable) {
       left_out += fmt::format("{}{:.4g}", left_out.empty() ? "" : ", ", speed);
-      if (nearby) {
+      if (nearby)
         context.warn(fmt::format(
             "in year {:g} {} at {:.4g} m/s {} among the modes of step 8, and no mode that step 7 follows loses its damping "
             "below that speed: critical.csv does not know of it; raise followed_modes and n_modes of step 7",
             s.of.years, s.of.words(), speed, moments.growth));
-      }
       continue;
     }
     for (const Found::First& first : found.first)
@@ -341,11 +339,10 @@ void find_years(const ReliabilityInputs& read, const fe::Model& start, const Str
   }
   for (std::size_t i = 0; i < s.stays.names.size(); ++i)
     found.years.push_back({s.of, "stay_force", s.stays.names[i], "N", s.stays.pull_N[static_cast<Index>(i)], std::nullopt});
-  for (const reliability::Wall& wall : read.walls) {
+  for (const reliability::Wall& wall : read.walls)
     for (const fe::Section& section : start.sections)
       if (std::find(wall.sections.begin(), wall.sections.end(), section.name) != wall.sections.end())
         found.years.push_back({s.of, "remaining_area", section.name, "-", wall.remaining(section, s.of.years), std::nullopt});
-  }
 }
 
 /// What two measurements of the frequencies would see of each wall's loss.

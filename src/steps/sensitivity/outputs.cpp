@@ -57,10 +57,9 @@ void write_sensitivity(const std::vector<fe::Parameter>& parameters, const sensi
 void write_selection(const std::vector<fe::Parameter>& parameters, const std::vector<sensitivity::SelectedParameter>& selection,
                      const SensitivityConfig& config, const std::filesystem::path& file) {
   io::CsvWriter csv({"parameter", "unit", "score", "rank", "selected", "published", "reason"});
-  for (std::size_t p = 0; p < parameters.size(); ++p) {
+  for (std::size_t p = 0; p < parameters.size(); ++p)
     csv.row({parameters[p].name, parameters[p].unit, selection[p].score, selection[p].rank, selection[p].selected ? 1 : 0,
              is_published(config, parameters[p].name) ? 1 : 0, selection[p].reason});
-  }
   csv.save(file);
 }
 
@@ -69,10 +68,9 @@ void write_singular_values(const sensitivity::Identifiability& identified, const
                            const std::filesystem::path& file) {
   io::CsvWriter csv({"index", "value", "relative", "identifiable"});
   const Eigen::VectorXd& values = identified.singular_values;
-  for (Eigen::Index i = 0; i < values.size(); ++i) {
+  for (Eigen::Index i = 0; i < values.size(); ++i)
     csv.row({static_cast<long>(i + 1), values(i), values(0) > 0.0 ? values(i) / values(0) : 0.0,
              values(i) >= config.singular_value_cutoff ? 1 : 0});
-  }
   csv.save(file);
 }
 
@@ -135,21 +133,17 @@ void check_sensitivity_config(const SensitivityConfig& config, const std::vector
                               const std::string& source) {
   if (parameters.empty())
     throw InputError({source, 0, "parameter"}, "the model has no parameters", "define [[parameter]] tables in its model.toml");
-  for (const double mode : config.compared_modes) {
-    if (mode != std::floor(mode) || mode > static_cast<double>(config.n_modes)) {
+  for (const double mode : config.compared_modes)
+    if (mode != std::floor(mode) || mode > static_cast<double>(config.n_modes))
       throw InputError({"", 0, "compared_modes"},
                        fmt::format("has {}, expected whole numbers from 1 to n_modes = {}", mode, config.n_modes),
                        "raise n_modes or leave the mode out");
-    }
-  }
   const std::vector<std::string> names = parameter_names(parameters);
-  for (const std::string& name : config.published_selection) {
-    if (std::find(names.begin(), names.end(), name) == names.end()) {
+  for (const std::string& name : config.published_selection)
+    if (std::find(names.begin(), names.end(), name) == names.end())
       throw InputError({"", 0, "published_selection"},
                        fmt::format("'{}' is no parameter of {}{}", name, source, did_you_mean(name, names)),
                        "the model has " + joined(names));
-    }
-  }
 }
 
 void write_tables(const std::vector<fe::Parameter>& parameters, const sensitivity::Sensitivities& found,

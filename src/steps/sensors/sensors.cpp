@@ -141,11 +141,10 @@ void write_blind_test(const SensorsConfig& config, const sensors::BlindTestResul
       csv.row({test.setup, "spurious", "", "", 0, test.modes[k].frequency_Hz, 100.0 * test.modes[k].damping_ratio, "", "", "",
                test.modes[k].members.size()});
     }
-    for (const identification::DiagramPole& p : test.diagram) {
+    for (const identification::DiagramPole& p : test.diagram)
       poles.row({test.setup, static_cast<long>(p.pole.order / 1000 + 1), static_cast<long>(p.pole.order % 1000),
                  p.pole.frequency_Hz, 100.0 * p.pole.damping_ratio, p.stable_frequency ? 1 : 0, p.stable_damping ? 1 : 0,
                  p.stable_shape ? 1 : 0, p.mode < 0 ? std::string() : std::to_string(p.mode + 1)});
-    }
     for (std::size_t c = 0; c < setup.channels.size(); ++c)
       for (Index f = 0; f < result.psd_frequency_Hz.size(); ++f)
         psd.row({test.setup, setup.channels[c], result.psd_frequency_Hz[f], result.psd_m2_s3[i](f, static_cast<Index>(c))});

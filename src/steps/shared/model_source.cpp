@@ -56,10 +56,9 @@ dynamics::ReadModel load_study_model(runner::StepContext& context, const std::st
     throw InputError({"", 0, ""}, "neither a study nor a model was given", "give --study workflows/<study> or --model DIR");
   const runner::Study study = runner::read_study(context.study);
   if (!study.model_inp.empty()) return import_file(context, study.model_inp);
-  if (study.model_folder.empty() && study.model_generator.empty()) {
+  if (study.model_folder.empty() && study.model_generator.empty())
     throw InputError({(context.study / "study.toml").string(), 0, "model"}, "names no model",
                      "give [model] generator and file, or folder, or a model folder by --model DIR");
-  }
   if (study.model_generator.empty()) return model_io::read_model_folder(context.input(study.model_folder));
   return dynamics::valid_model(ponte::generate(context.input(study.model_file), variant, study.model_mesh));
 }

@@ -20,10 +20,9 @@ namespace {
 
 std::vector<std::string> selected_by_sensitivity(runner::StepContext& context) {
   const std::filesystem::path file = context.results / "s5_sensitivity" / "selection.csv";
-  if (!std::filesystem::is_regular_file(file)) {
+  if (!std::filesystem::is_regular_file(file))
     throw InputError({file.string(), 0, ""}, "is not there, but parameters_from or beside_selection asks for it",
                      "run s5_sensitivity first, or list the parameters");
-  }
   const io::CsvTable table = io::CsvTable::read(context.input(file), {"parameter", "selected"}, {}, true);
   std::vector<std::string> names;
   for (std::size_t row = 0; row < table.rows(); ++row)
@@ -42,18 +41,16 @@ std::vector<int> positions_of(const std::vector<std::string>& names, const dynam
   std::vector<int> active;
   for (const std::string& name : names) {
     const auto at = std::find(known.begin(), known.end(), name);
-    if (at == known.end()) {
+    if (at == known.end())
       throw InputError({"", 0, "parameters"},
                        fmt::format("'{}' is no parameter of {}{}", name, model.source, did_you_mean(name, known)),
                        "list parameters of the model");
-    }
     const auto p = static_cast<int>(at - known.begin());
     if (std::find(active.begin(), active.end(), p) != active.end())
       throw InputError({"", 0, "parameters"}, fmt::format("names '{}' twice", name), "list each parameter once");
-    if (!has_range(parameters[static_cast<std::size_t>(p)])) {
+    if (!has_range(parameters[static_cast<std::size_t>(p)]))
       throw InputError({model.source, 0, name}, "is fixed (its bounds coincide), but is listed for updating",
                        "give it a range in the model, or take it off the list");
-    }
     active.push_back(p);
   }
   return active;
@@ -68,10 +65,9 @@ std::vector<int> active_parameters(const UpdatingConfig& config, const dynamics:
   if (active.empty() && !from_s5)
     for (std::size_t p = 0; p < model.parameters().size(); ++p)
       if (has_range(model.parameters()[p])) active.push_back(static_cast<int>(p));
-  if (active.empty()) {
+  if (active.empty())
     throw InputError({model.source, 0, "parameter"}, "no parameter to update: none is listed or selected, or none has a range",
                      "define parameters with lower < upper in model.toml");
-  }
   return active;
 }
 

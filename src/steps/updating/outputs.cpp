@@ -315,11 +315,10 @@ std::vector<std::string> report_lines(const std::vector<fe::Parameter>& paramete
                                 start.converged ? fmt::format("{}", optimum_number(result, start)) : "-",
                                 start.converged ? (static_cast<int>(k) == result.best ? "best" : "") : start.message));
   }
-  if (result.smooth.theta.size() > 0) {
+  if (result.smooth.theta.size() > 0)
     lines.push_back(fmt::format(
         "by a smooth map of the bounds from start {}: cost {:.6e}, parameters within {:.2g} of their range after {} steps",
         result.best, result.smooth.cost, result.smooth.largest_difference, result.smooth.iterations));
-  }
   return lines;
 }
 

@@ -130,10 +130,9 @@ void write_comfort(const std::vector<buffeting::RunResult>& results, const buffe
 /// wind_check.csv: `event,quantity,target,found,allowed,verdict`; no rows of an event in which all runs are unstable.
 void write_wind_check(const std::vector<buffeting::FieldCheck>& checks, const std::filesystem::path& folder) {
   io::CsvWriter csv({"event", "quantity", "target", "found", "allowed", "verdict"});
-  for (const buffeting::FieldCheck& check : checks) {
+  for (const buffeting::FieldCheck& check : checks)
     csv.row({check.event, check.quantity, check.target, check.found, check.allowed,
              std::abs(check.found - check.target) <= check.allowed ? "met" : "missed"});
-  }
   csv.save(folder / "wind_check.csv");
 }
 

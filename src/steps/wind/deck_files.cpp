@@ -46,15 +46,13 @@ void check_laws(const aero::DeckWind& deck, const aero::DeckAerodynamics& data) 
   const aero::QuasiSteady::Arms arms{deck.arm_drag, deck.arm_lift, deck.arm_moment};
   for (const aero::BrokenLaw& broken :
        data.flutter ? aero::broken_laws(data.polar, *data.flutter, arms) : aero::broken_laws(data.polar)) {
-    if (exceptions.erase(broken.law) == 0) {
+    if (exceptions.erase(broken.law) == 0)
       throw InputError({"", 0, "deck " + deck.name}, "breaks the law '" + broken.law + "': " + broken.told,
                        "mend the file, or say why in the deck's exceptions: \"" + broken.law + ": reason\"");
-    }
   }
-  if (!exceptions.empty()) {
+  if (!exceptions.empty())
     throw InputError({"", 0, "deck " + deck.name + ": exceptions"},
                      "'" + exceptions.begin()->first + "' is excepted, but holds", "take the entry out");
-  }
 }
 
 }  // namespace
@@ -79,10 +77,9 @@ std::vector<aero::DeckAerodynamics> read_deck_aerodynamics(const aero::WindSetti
 }
 
 AerodynamicsConfig read_step_7(const std::string& file, runner::StepContext& context) {
-  if (file.empty() && context.study.empty()) {
+  if (file.empty() && context.study.empty())
     throw InputError({"", 0, "aerodynamics"}, "neither a study nor a configuration of step 7 was given",
                      "give --study, or --set aerodynamics=s7_aerodynamics.toml");
-  }
   AerodynamicsConfig out;
   io::FieldTable fields = out.fields();
   std::string model;
