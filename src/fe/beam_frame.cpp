@@ -44,12 +44,11 @@ Eigen::Matrix3d beam_axes(const BeamGeometry& geometry) {
   Eigen::Vector3d z = reference - reference.dot(x) * x;
   if (!(z.norm() > 1e-9)) {
     const Eigen::Vector3d& node = geometry.node_m[0];
-    throw InputError(
-        {},
-        fmt::format("orientation ({:.6g}, {:.6g}, {:.6g}) of the beam at ({:.6g}, {:.6g}, {:.6g}) m lies along its axis, "
-                    "expected a vector across it",
-                    reference.x(), reference.y(), reference.z(), node.x(), node.y(), node.z()),
-        "give an orientation that is not parallel to the beam, or 0 0 0 for the default");
+    throw InputError({},
+                     fmt::format("orientation ({:.6g}, {:.6g}, {:.6g}) of the beam at ({:.6g}, {:.6g}, {:.6g}) m lies along "
+                                 "its axis, expected a vector across it",
+                                 reference.x(), reference.y(), reference.z(), node.x(), node.y(), node.z()),
+                     "give an orientation that is not parallel to the beam, or 0 0 0 for the default");
   }
   z.normalize();
   Eigen::Matrix3d axes;

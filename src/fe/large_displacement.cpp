@@ -355,10 +355,9 @@ NewtonResult newton(MovingStructure& structure, Configuration c, double lambda, 
       ++c.iterations;
       if (factor.factorize(k).converged) return {std::move(c), true, ""};
       return {std::move(c), false,
-              fmt::format(
-                  "the equilibrium there is unstable, its stiffness not positive definite at node {}: the structure buckles "
-                  "or is loose",
-                  structure.label(factor.failed_column()).node)};
+              fmt::format("the equilibrium there is unstable, its stiffness not positive definite at node {}: the structure "
+                          "buckles or is loose",
+                          structure.label(factor.failed_column()).node)};
     }
     if (!std::isfinite(r.norm())) return {std::move(c), false, "displacements grow beyond all bounds"};
     if (iteration == kMaxIterations) return {std::move(c), false, fmt::format("after {} iterations the {}", iteration, where)};

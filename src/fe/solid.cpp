@@ -77,12 +77,11 @@ void require_sound(const SolidGeometry& geometry) {
   const SolidShape shape = solid_shape(geometry);
   if (is_sound(shape)) return;
   const Eigen::Vector3d& x = geometry.node_m[0];
-  throw InputError(
-      {},
-      fmt::format("solid with first corner ({:.6g}, {:.6g}, {:.6g}) m has volume {:.3g} m3 and a corner with {:.3g} "
-                  "of the mean Jacobian, expected both positive",
-                  x.x(), x.y(), x.z(), shape.volume_m3, shape.least_ratio),
-      "give four corners round one face, then the four above them in the same order");
+  throw InputError({},
+                   fmt::format("solid with first corner ({:.6g}, {:.6g}, {:.6g}) m has volume {:.3g} m3 and a corner with "
+                               "{:.3g} of the mean Jacobian, expected both positive",
+                               x.x(), x.y(), x.z(), shape.volume_m3, shape.least_ratio),
+                   "give four corners round one face, then the four above them in the same order");
 }
 
 Matrix6x24 strain_at(const Trilinear& t) {

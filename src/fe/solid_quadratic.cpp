@@ -150,12 +150,11 @@ void require_sound_quadratic(const QuadraticSolid& solid) {
   const SolidShape shape = quadratic_solid_shape(solid);
   if (is_sound(shape)) return;
   const Eigen::Vector3d& x = solid.node_m[0];
-  throw InputError(
-      {},
-      fmt::format("solid of {} nodes with first corner ({:.6g}, {:.6g}, {:.6g}) m has volume {:.3g} m3 and a point "
-                  "with {:.3g} of the mean Jacobian, expected both positive",
-                  solid.node_m.size(), x.x(), x.y(), x.z(), shape.volume_m3, shape.least_ratio),
-      "give the corners first, then the nodes in the middles of their edges");
+  throw InputError({},
+                   fmt::format("solid of {} nodes with first corner ({:.6g}, {:.6g}, {:.6g}) m has volume {:.3g} m3 and a "
+                               "point with {:.3g} of the mean Jacobian, expected both positive",
+                               solid.node_m.size(), x.x(), x.y(), x.z(), shape.volume_m3, shape.least_ratio),
+                   "give the corners first, then the nodes in the middles of their edges");
 }
 
 /// Calls use(weight · det J, gradient (3 × n)) at the points of the stiffness.

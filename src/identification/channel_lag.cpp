@@ -102,8 +102,7 @@ std::string lag_warning(const Conditioned& conditioned, const Identification& fo
   if (off.empty()) return "";
   return fmt::format(
       "setup {}: not on the clock of {}: {}: shapes are bent and modes may be missing; shift the channel in its record, or "
-      "leave it "
-      "out (--set exclude=…)",
+      "leave it out (--set exclude=…)",
       conditioned.setup, conditioned.channels.front().name, fmt::join(off, ", "));
 }
 

@@ -89,10 +89,9 @@ void refuse_lone(const ChannelQuality& q, double largest, const std::string& wit
   if (!q.lone || q.lone->deviations <= largest) return;
   throw UnusableRecord(
       {q.record, 0, q.channel},
-      fmt::format(
-          "has {:.6g} at sample {}, {:.3g} robust deviations from its median and alone between quiet neighbours, expected "
-          "at most {:.3g}: that is no motion",
-          q.lone->value, q.lone->sample, q.lone->deviations, largest),
+      fmt::format("has {:.6g} at sample {}, {:.3g} robust deviations from its median and alone between quiet neighbours, "
+                  "expected at most {:.3g}: that is no motion",
+                  q.lone->value, q.lone->sample, q.lone->deviations, largest),
       fmt::format("empty the cell and bridge the gap (--set longest_gap=1), {}, or allow it (--set largest_lone={:.2g})",
                   without, 1.1 * q.lone->deviations));
 }

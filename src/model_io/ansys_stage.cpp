@@ -234,8 +234,7 @@ double initial_strain(const Builder& builder, const Member& member, const RealSe
         .fail(fmt::format("constant {} of set {} is {:g}: an initial strain acts by a static solution with PSTRES,ON "
                           "before the modal one, which the deck does not have",
                           i, member.element.real, set.at(i)),
-              "leave it out, or solve the prestress first; the tension of bars may also go into pull_N of the model "
-              "folder");
+              "leave it out, or solve the prestress first; the tension of bars may also go into pull_N of the model folder");
   return set.at(i);
 }
 

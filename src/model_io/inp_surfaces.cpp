@@ -30,10 +30,9 @@ InpFacet facet_of(const DeckPlace& at, const InpElement& element, const std::str
              number < element.nodes.size()) {
     facet.nodes = {element.nodes[number], element.nodes[(number + 1) % element.nodes.size()]};
   } else {
-    at.fail(
-        fmt::format("'{}' is no face of element {}, a {}", face, element.id, element.type),
-        "hexahedra have S1 to S6, tetrahedra S1 to S4, shells SPOS, SNEG and edges E1 to E4; shells with nodes on their edges "
-        "have none; name nodes by TYPE=NODE");
+    at.fail(fmt::format("'{}' is no face of element {}, a {}", face, element.id, element.type),
+            "hexahedra have S1 to S6, tetrahedra S1 to S4, shells SPOS, SNEG and edges E1 to E4; shells with nodes on their "
+            "edges have none; name nodes by TYPE=NODE");
   }
   return facet;
 }

@@ -223,8 +223,7 @@ io::FieldTable record_fields(ListedRecord& r) {
       .boolean("skip_stray_lines", r.record.skip_stray_lines,
                "leave out and count lines of a text file that are no rows of its table, instead of refusing them")
       .choice("unit_from", r.record.unit_from, {"", "channels.csv", "file"},
-              "which is right where the file and channels.csv give a channel different units; empty: such a record is "
-              "refused")
+              "which is right where the file and channels.csv give a channel different units; empty: such a record is refused")
       .path_name("condition", r.record.condition, "condition", "table of conditions.toml");
   return table;
 }

@@ -110,8 +110,7 @@ std::vector<CampaignChannel> read_campaign_channels(const std::filesystem::path&
   if (!without_scale.empty())
     warnings.push_back(
         fmt::format("{}: recorded with gain 1 and no unit of motion: {}. Frequencies and damping need no scale, but shapes "
-                    "need the same for "
-                    "all channels, and RMS values and spectra are not in SI units",
+                    "need the same for all channels, and RMS values and spectra are not in SI units",
                     file.string(), fmt::join(without_scale, ", ")));
   return channels;
 }

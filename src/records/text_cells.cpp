@@ -100,9 +100,8 @@ std::optional<double> number_in(std::string_view cell, bool decimal_comma) {
   if (const auto joined = without_groups(cell, decimal_comma ? ',' : '.')) return number_in(*joined, decimal_comma);
   constexpr std::string_view missing =
       "|null|na|nd|nb|nv|ka|none|missing|lost|void|empty|undefined|ndef|nodata|novalue|nosignal|noinput|notavailable|"
-      "keinedaten|"
-      "keinwert|over|ovld|ovl|ol|overflow|overload|overrange|outofrange|offscale|sat|saturated|clip|clipped|under|underflow|"
-      "underrange|invalid|bad|badvalue|open|opencircuit|burnout|fault|sensorfault|fail|failed|timeout|";
+      "keinedaten|keinwert|over|ovld|ovl|ol|overflow|overload|overrange|outofrange|offscale|sat|saturated|clip|clipped|under|"
+      "underflow|underrange|invalid|bad|badvalue|open|opencircuit|burnout|fault|sensorfault|fail|failed|timeout|";
   std::string text = io::lower_case(cell);
   if (text.find_first_not_of("-+*?.") == std::string::npos) return nan;  // "---", "****"
   text.erase(0, text.front() == '-' || text.front() == '+' ? 1 : 0);

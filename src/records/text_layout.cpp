@@ -406,8 +406,7 @@ void refuse_thousands(const std::vector<std::vector<std::string_view>>& rows, co
   }
   throw InputError({file.string(), 0, ""}, "has no two lines of numbers that follow one another" + reason,
                    "a record is a table of numbers, one line a sample, after any header: write other columns out of it; known "
-                   "are also NPY, MAT, "
-                   "HDF5, universal files");
+                   "are also NPY, MAT, HDF5, universal files");
 }
 
 }  // namespace

@@ -163,11 +163,9 @@ SubsetResult subset_simulation(const LimitState& g, Index n, const SubsetOptions
       break;
     }
     if (result.levels >= options.largest_levels) {
-      result.status = {
-          false,
-          fmt::format("subset simulation did not reach the limit in {} levels: its probability is below {:.1e}, or it is "
-                      "never exceeded",
-                      result.levels, std::pow(options.level_share, result.levels))};
+      result.status = {false, fmt::format("subset simulation did not reach the limit in {} levels: its probability is below "
+                                          "{:.1e}, or it is never exceeded",
+                                          result.levels, std::pow(options.level_share, result.levels))};
       break;
     }
     level = chains.next(u, values, limit);

@@ -9,12 +9,11 @@ int main(int argc, char** argv) {
   runner::Step step;
   step.token = "s9_diagnosis";
   step.summary = "Finds what the model gets wrong, names the cause, extends the model, measures the gain on held-out rows.";
-  step.examples = {
-      "s9_diagnosis --study workflows/ponte_del_mare --out results/ponte_del_mare/s9_diagnosis",
-      "s9_diagnosis --model my_bridge/model --features my_bridge/features --out my_bridge/diagnosis",
-      "s9_diagnosis --model my_bridge/model --features my_bridge/features --correct my_bridge/diagnosis/corrections.toml --out "
-      "my_bridge/corrected",
-      "s9_diagnosis --model my_bridge/model --features planned/features --plan --out my_bridge/plan"};
+  step.examples = {"s9_diagnosis --study workflows/ponte_del_mare --out results/ponte_del_mare/s9_diagnosis",
+                   "s9_diagnosis --model my_bridge/model --features my_bridge/features --out my_bridge/diagnosis",
+                   "s9_diagnosis --model my_bridge/model --features my_bridge/features --correct "
+                   "my_bridge/diagnosis/corrections.toml --out my_bridge/corrected",
+                   "s9_diagnosis --model my_bridge/model --features planned/features --plan --out my_bridge/plan"};
   step.fields = config.fields();
   step.configured_inputs = {"model"};
   step.flags = {{"catalogue", true, "folder of hypotheses, one TOML file each"},

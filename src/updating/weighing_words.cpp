@@ -116,8 +116,7 @@ std::string misfit_sentence(const Weighed& weighed, const Posterior& posterior) 
       std::max_element(by_channel.begin(), by_channel.end(), [](const auto& a, const auto& b) { return a.second < b.second; });
   std::string sentence = fmt::format(
       "chi² is {:.4g} with {} degrees of freedom: model and measurement differ {:.2g} times as much as the covariance says, "
-      "and "
-      "standard deviations count that much more (std_with_misfit)",
+      "and standard deviations count that much more (std_with_misfit)",
       posterior.chi_squared, posterior.degrees, posterior.misfit());
   if (worst->second < most_of_misfit * sum) return sentence;
   const std::string share = fmt::format(". {:.0f} % of the squared differences ", 100.0 * worst->second / sum);

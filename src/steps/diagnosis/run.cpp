@@ -437,10 +437,8 @@ io::FieldTable DiagnosisConfig::fields() {
               "farthest that a sensor may lie from the node that stands for it")
       .choice("stays", stays, {"auto", "as_modelled"},
               "auto: stays that the model has as bars become cables in several elements where that explains measured modes "
-              "which the model "
-              "resembles nowhere; their forces come from stay_frequency_Hz rows (left_out keeps these from the fit, not from "
-              "here), else "
-              "from the model; as_modelled: they stay bars")
+              "which the model resembles nowhere; their forces come from stay_frequency_Hz rows (left_out keeps these from the "
+              "fit, not from here), else from the model; as_modelled: they stay bars")
       .number("scatter.element_stiffness", scatter.element_stiffness, "", io::non_negative(),
               "relative deviation of an element's stiffness")
       .number("scatter.element_mass", scatter.element_mass, "", io::non_negative(), "of an element's mass")

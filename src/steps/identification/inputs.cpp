@@ -189,8 +189,7 @@ io::FieldTable IdentificationConfig::fields() {
       .texts("exclude", exclude, "channels that are left out")
       .text("keep", keep,
             "CSV file of poles that a person kept or deleted (setup,order,frequency_Hz,damping_ratio_pct,action), as the "
-            "report's "
-            "stabilisation diagram writes it; empty: none")
+            "report's stabilisation diagram writes it; empty: none")
       .number("imported_std_pct", imported_std_pct, "", {0.0, 50.0},
               "standard deviation in per cent that frequencies of a universal file (--modes FILE) are given; 0: none")
       .integer("longest_gap", longest_gap, io::non_negative(),

@@ -72,8 +72,7 @@ void add_tables(ReliabilityConfig& config, io::FieldTable& t) {
               "code: basic wind speed v_b of EN 1991-1-4")
       .choice("wind_law.terrain", config.wind_law.terrain, {"0", "I", "II", "III", "IV"}, "code: category of the terrain")
       .text("wind_law.file", config.wind_law.file,
-            "table: file with speed_m_s, direction_deg (where the wind blows to, as step 7's), "
-            "probability")
+            "table: file with speed_m_s, direction_deg (where the wind blows to, as step 7's), probability")
       .number("wind_law.sector", config.wind_law.sector_deg, "", {1.0, 360.0},
               "table: winds within half this angle of step 7's direction or its opposite count, others as calm, degrees");
 }
@@ -131,8 +130,7 @@ Posterior read_posterior(runner::StepContext& context, const std::vector<fe::Par
   if (context.model || !std::filesystem::exists(file)) {
     context.warn(
         "step 6 wrote no posterior of the parameters (it does so where the measured frequencies have standard deviations): "
-        "they "
-        "are taken as known; state their scatter by [[random]] tables with name = \"parameter:NAME\"");
+        "they are taken as known; state their scatter by [[random]] tables with name = \"parameter:NAME\"");
     return out;
   }
   const io::CsvTable table =

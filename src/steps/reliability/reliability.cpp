@@ -451,8 +451,7 @@ Status run_reliability(const ReliabilityConfig& config, const ReliabilityInputs&
   for (const CriticalRow& row : found.critical) {
     if (!row.speed.speed_m_s) continue;
     context.say(fmt::format(
-        "year {:g}, model {} {}: critical speed {:.2f} m/s, deviation {:.1f} %, below {:.1f} m/s with "
-        "probability {:.3g}",
+        "year {:g}, model {} {}: critical speed {:.2f} m/s, deviation {:.1f} %, below {:.1f} m/s with probability {:.3g}",
         row.of.years, row.speed.model, row.of.words(), row.speed.speed_m_s->value, 100.0 * row.speed.speed_m_s->deviation(),
         read.aerodynamics.design_speed_m_s, row.speed.probability_below(read.aerodynamics.design_speed_m_s)));
   }

@@ -168,10 +168,9 @@ io::FieldTable UpdatingConfig::fields() {
                "afterwards each pair is left out in turn and predicted by an update to the others (leave_one_out.csv)")
       .choices("residuals", residuals, {"frequency", "shape"},
                "what is fitted: frequencies, and shapes too (any scale of each is free; docs/updating_on_shapes.md)")
-      .choice(
-          "weights", weights, {"automatic", "relative", "covariance"},
-          "relative: errors of frequencies relative to the measured ones, the paper's Eq. (5); covariance: standard deviations "
-          "or covariance.npy of the features; automatic: covariance with shapes, else relative")
+      .choice("weights", weights, {"automatic", "relative", "covariance"},
+              "relative: errors of frequencies relative to the measured ones, the paper's Eq. (5); covariance: standard "
+              "deviations or covariance.npy of the features; automatic: covariance with shapes, else relative")
       .number("frequency_model_error", frequency_model_error, "", io::non_negative(),
               "standard deviation of the model's own error relative to the frequency, added to the measurement's (weights by "
               "covariance)")

@@ -181,8 +181,7 @@ std::string words_of_regularised(const std::vector<matching::ComparisonRow>& com
   const double error = 100.0 * result.regularised->model_error;
   return fmt::format(
       "the update predicts worse than none: pairs that are left out of it are {:.2f} % off in the mean, without updating "
-      "{:.2f} "
-      "%. Held to the ranges (maximum a posteriori{}) it is {:.2f} %: regularised.csv, regularised_model",
+      "{:.2f} %. Held to the ranges (maximum a posteriori{}) it is {:.2f} %: regularised.csv, regularised_model",
       mean_left_out_pct(result, comparison), matching::mean_abs_error_pct(comparison, "before"),
       error > 0.0 ? fmt::format(", model error {:.1f} %", error) : "", mean_left_out_pct(*result.regularised, comparison));
 }
