@@ -4,9 +4,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <set>
 
-#include "core/error.hpp"
 #include "fe/assembly.hpp"
 
 namespace twindeck::fe {
@@ -40,11 +40,6 @@ void check_beam_section(const Model& model, const Section& s, const std::string&
   throw InputError({model.source, 0, "parameter '" + p.name + "'"}, problem, mend);
 }
 
-struct Known {
-  std::string what;  ///< "material"
-  std::vector<std::string> names;
-};
-
 template <typename List, typename Name>
 std::vector<std::string> names_of(const List& list, Name name) {
   std::set<std::string> names;
@@ -52,50 +47,21 @@ std::vector<std::string> names_of(const List& list, Name name) {
   return {names.begin(), names.end()};
 }
 
-/// What a parameter's target may name.
-Known known_names(const Model& model, const Parameter& p) {
-  switch (p.target) {
-    case Target::youngs_modulus:
-    case Target::density:
-      return {"material", names_of(model.materials, &Material::name)};
-    case Target::thickness:
-    case Target::bending_inertia_ratio:
-    case Target::area:
-      return {"section", names_of(model.sections, &Section::name)};
-    case Target::spring_stiffness:
-      return {"group of springs", names_of(model.springs, &Spring::group)};
-    case Target::point_mass:
-      return {"group of point masses", names_of(model.masses, &PointMass::group)};
-    case Target::matrix_stiffness:
-    case Target::matrix_mass:
-      break;
-  }
-  refuse(model, p, "scales a matrix, but this model is made of elements", "scale a material, a section or a group");
+const char* kind_of(Target target) {
+  if (target == Target::youngs_modulus || target == Target::density) return "material";
+  if (target == Target::spring_stiffness) return "group of springs";
+  return target == Target::point_mass ? "group of point masses" : "section";
 }
 
 void check_names(const Model& model, const Parameter& p) {
-  const Known known = known_names(model, p);
-  if (p.of.empty()) refuse(model, p, "names nothing that it scales", fmt::format("name a {}", known.what));
+  if (p.target == Target::matrix_stiffness || p.target == Target::matrix_mass)
+    refuse(model, p, "scales a matrix, but this model is made of elements", "scale a material, a section or a group");
+  const std::vector<std::string> known = names_of_target(model, p.target);
+  if (p.of.empty()) refuse(model, p, "names nothing that it scales", fmt::format("name a {}", kind_of(p.target)));
   for (const std::string& name : p.of)
-    if (std::find(known.names.begin(), known.names.end(), name) == known.names.end())
-      refuse(model, p, fmt::format("there is no {} '{}'{}", known.what, name, did_you_mean(name, known.names)),
-             fmt::format("known: {}", fmt::join(known.names, ", ")));
-}
-
-/// Units in which a parameter's values may be given: SI, or none for a factor.
-std::vector<std::string> units_of(Target target) {
-  switch (target) {
-    case Target::youngs_modulus:
-      return {"Pa", "N/m2", "N/m^2"};
-    case Target::density:
-      return {"kg/m3", "kg/m^3"};
-    case Target::thickness:
-      return {"m"};
-    case Target::area:
-      return {"m2", "m^2"};
-    default:
-      return {"-", "1"};
-  }
+    if (std::find(known.begin(), known.end(), name) == known.end())
+      refuse(model, p, fmt::format("there is no {} '{}'{}", kind_of(p.target), name, did_you_mean(name, known)),
+             fmt::format("known: {}", fmt::join(known, ", ")));
 }
 
 void check_unit(const Model& model, const Parameter& p) {
@@ -182,6 +148,22 @@ void validate_properties(const Model& model) {
         break;
     }
   }
+}
+
+std::vector<std::string> names_of_target(const Model& model, Target target) {
+  if (target == Target::youngs_modulus || target == Target::density) return names_of(model.materials, &Material::name);
+  if (target == Target::spring_stiffness) return names_of(model.springs, &Spring::group);
+  if (target == Target::point_mass) return names_of(model.masses, &PointMass::group);
+  return names_of(model.sections, &Section::name);
+}
+
+std::vector<std::string> units_of(Target target) {
+  static const std::map<Target, std::vector<std::string>> units = {{Target::youngs_modulus, {"Pa", "N/m2", "N/m^2"}},
+                                                                   {Target::density, {"kg/m3", "kg/m^3"}},
+                                                                   {Target::thickness, {"m"}},
+                                                                   {Target::area, {"m2", "m^2"}}};
+  const auto found = units.find(target);
+  return found == units.end() ? std::vector<std::string>{"-", "1"} : found->second;
 }
 
 void validate_parameters(const Model& model) {

@@ -4,9 +4,9 @@
 
 #include <deque>
 #include <optional>
-#include <set>
 
 #include "core/error.hpp"
+#include "fe/validate_parts.hpp"
 #include "io/atomic.hpp"
 #include "io/csv.hpp"
 #include "io/path_name.hpp"
@@ -120,28 +120,6 @@ InputError key_error(const std::filesystem::path& file, const std::string& ancho
   return InputError({file.string(), line_of(file, anchor), key}, problem, mend);
 }
 
-/// Names that a target may apply to.
-std::vector<std::string> known_names(const fe::Model& model, fe::Target target) {
-  std::set<std::string> names;
-  switch (target) {
-    case fe::Target::youngs_modulus:
-    case fe::Target::density:
-      for (const auto& m : model.materials) names.insert(m.name);
-      break;
-    case fe::Target::thickness:
-    case fe::Target::bending_inertia_ratio:
-    case fe::Target::area:
-      for (const auto& s : model.sections) names.insert(s.name);
-      break;
-    case fe::Target::spring_stiffness:
-      for (const auto& s : model.springs) names.insert(s.group);
-      break;
-    default:
-      for (const auto& m : model.masses) names.insert(m.group);
-  }
-  return {names.begin(), names.end()};
-}
-
 const char* kind_of(fe::Target target) {
   if (target == fe::Target::youngs_modulus || target == fe::Target::density) return "material";
   if (target == fe::Target::spring_stiffness) return "group of springs";
@@ -158,7 +136,7 @@ fe::Parameter to_parameter(const std::filesystem::path& file, const fe::Model& m
   if (p.of.empty())
     throw key_error(file, anchor, key, "'of' is missing or empty",
                     fmt::format("name the {} that it applies to", kind_of(p.target)));
-  const auto known = known_names(model, p.target);
+  const auto known = fe::names_of_target(model, p.target);
   for (const auto& name : p.of) {
     if (position_of(name, known) >= 0) continue;
     throw key_error(file, anchor, key,

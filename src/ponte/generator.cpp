@@ -7,6 +7,7 @@
 
 #include "core/error.hpp"
 #include "fe/assembly_parameters.hpp"
+#include "fe/validate_parts.hpp"
 #include "ponte/bridge_definition.hpp"
 #include "ponte/deck.hpp"
 #include "ponte/definition_file.hpp"
@@ -90,38 +91,14 @@ void apply_variant(DefinitionFile& file, const std::string& variant, std::size_t
 
 // Initial values as they stand in the model; bounds on either side.
 void add_parameters(fe::Model& model, const BridgeDefinition& definition) {
-  const auto fail = [&](const ParameterDefinition& parameter, const std::string& of, const std::vector<std::string>& known) {
-    throw InputError({definition.source, 0, "parameter '" + parameter.name + "' of"},
-                     "names '" + of + "', which the model does not have" + did_you_mean(of, known),
-                     "name a material, a section or a group of springs or masses, as the target asks");
-  };
-  static const std::map<fe::Target, const char*> units = {{fe::Target::youngs_modulus, "Pa"},
-                                                          {fe::Target::density, "kg/m3"},
-                                                          {fe::Target::thickness, "m"},
-                                                          {fe::Target::area, "m2"}};
   for (const ParameterDefinition& p : definition.parameters) {
-    std::vector<std::string> known;
-    const auto know = [&](const auto& parts, auto name) {
-      for (const auto& part : parts) known.push_back(part.*name);
-    };
-    switch (p.target) {
-      case fe::Target::youngs_modulus:
-      case fe::Target::density:
-        know(model.materials, &fe::Material::name);
-        break;
-      case fe::Target::point_mass:
-        know(model.masses, &fe::PointMass::group);
-        break;
-      case fe::Target::spring_stiffness:
-        know(model.springs, &fe::Spring::group);
-        break;
-      default:
-        know(model.sections, &fe::Section::name);
-    }
+    const std::vector<std::string> known = fe::names_of_target(model, p.target);
     for (const std::string& of : p.of)
-      if (std::find(known.begin(), known.end(), of) == known.end()) fail(p, of, known);
-    const auto unit = units.find(p.target);
-    model.parameters.push_back({p.name, p.target, p.of, unit == units.end() ? "-" : unit->second, 1.0, 0.0, 0.0});
+      if (std::find(known.begin(), known.end(), of) == known.end())
+        throw InputError({definition.source, 0, "parameter '" + p.name + "' of"},
+                         "names '" + of + "', which the model does not have" + did_you_mean(of, known),
+                         "name a material, a section or a group of springs or masses, as the target asks");
+    model.parameters.push_back({p.name, p.target, p.of, fe::units_of(p.target).front(), 1.0, 0.0, 0.0});
   }
   const Eigen::VectorXd standing = fe::initial_parameters(model);
   for (std::size_t i = 0; i < model.parameters.size(); ++i) {
