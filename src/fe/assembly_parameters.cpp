@@ -24,25 +24,13 @@ double value_of(const std::vector<Part>& parts, const Parameter& parameter, doub
 /// The value of the first thing that a parameter names; the other things keep their ratio to it. Factors of groups stand for
 /// themselves.
 double standing_value(const Model& model, const Parameter& parameter) {
-  switch (parameter.target) {
-    case Target::youngs_modulus:
-      return value_of(model.materials, parameter, &Material::youngs_modulus_Pa);
-    case Target::density:
-      return value_of(model.materials, parameter, &Material::density_kg_m3);
-    case Target::thickness:
-      return value_of(model.sections, parameter, &Section::thickness_m);
-    case Target::bending_inertia_ratio:
-      return value_of(model.sections, parameter, &Section::bending_inertia_ratio);
-    case Target::area:
-      return value_of(model.sections, parameter, &Section::area_m2);
-    case Target::spring_stiffness:
-    case Target::point_mass:
-    case Target::matrix_stiffness:
-    case Target::matrix_mass:
-      return parameter.initial;
-  }
-  TWINDECK_ASSERT(false);
-  return 0.0;
+  const Target target = parameter.target;
+  if (target == Target::youngs_modulus) return value_of(model.materials, parameter, &Material::youngs_modulus_Pa);
+  if (target == Target::density) return value_of(model.materials, parameter, &Material::density_kg_m3);
+  if (target == Target::thickness) return value_of(model.sections, parameter, &Section::thickness_m);
+  if (target == Target::bending_inertia_ratio) return value_of(model.sections, parameter, &Section::bending_inertia_ratio);
+  if (target == Target::area) return value_of(model.sections, parameter, &Section::area_m2);
+  return parameter.initial;
 }
 
 void scale(Model& model, const Parameter& parameter, double ratio) {

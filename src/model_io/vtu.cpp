@@ -17,20 +17,9 @@ namespace {
 /// VTK_LINE, VTK_TRIANGLE, VTK_QUAD, VTK_TETRA, VTK_HEXAHEDRON, and the two solids with nodes on edges, VTK_QUADRATIC_TETRA and
 /// VTK_QUADRATIC_HEXAHEDRON: nodes in the order of the model's.
 int vtk_cell(const fe::Element& e) {
-  switch (e.nodes.size()) {
-    case 20:
-      return 25;
-    case 10:
-      return 24;
-    case 8:
-      return 12;
-    case 4:
-      return e.type == fe::ElementType::solid ? 10 : 9;
-    case 3:
-      return 5;
-    default:
-      return 3;
-  }
+  const std::size_t nodes = e.nodes.size();
+  if (nodes == 4) return e.type == fe::ElementType::solid ? 10 : 9;
+  return nodes == 20 ? 25 : nodes == 10 ? 24 : nodes == 8 ? 12 : nodes == 3 ? 5 : 3;
 }
 
 /// One DataArray; `body` is its text.
@@ -55,9 +44,8 @@ std::string names_comment(const std::string& field, const std::vector<std::strin
   std::string text;
   for (std::size_t i = 0; i < names.size(); ++i) text += fmt::format("{}{} {}", i == 0 ? "" : ", ", i, names[i]);
   // "--" and tags must not stand in a comment
-  for (std::size_t i = 0; i + 1 < text.size(); ++i) {
+  for (std::size_t i = 0; i + 1 < text.size(); ++i)
     if (text[i] == '-' && text[i + 1] == '-') text[i + 1] = '_';
-  }
   std::replace(text.begin(), text.end(), '<', '(');
   std::replace(text.begin(), text.end(), '>', ')');
   return fmt::format("<!-- {}: {} -->\n", field, text);
@@ -93,9 +81,8 @@ std::string mode_vectors(const Eigen::Ref<const Eigen::VectorXd>& full) {
   const double longest = at.topRows(3).colwise().norm().maxCoeff();
   const double scale = longest > 0.0 ? 1.0 / longest : 1.0;
   std::string body;
-  for (Eigen::Index i = 0; i < nodes; ++i) {
+  for (Eigen::Index i = 0; i < nodes; ++i)
     fmt::format_to(std::back_inserter(body), "{:.7g} {:.7g} {:.7g}\n", scale * at(0, i), scale * at(1, i), scale * at(2, i));
-  }
   return body;
 }
 

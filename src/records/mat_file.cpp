@@ -339,30 +339,18 @@ MatFile level_5(const fs::path& file, std::uint64_t size) {
 }
 
 double value_of(int storage, const char* at, bool swapped) {
-  switch (storage) {
-    case 1:
-      return static_cast<double>(number_at<std::int8_t>(at, swapped));
-    case 2:
-      return static_cast<double>(number_at<std::uint8_t>(at, swapped));
-    case 3:
-      return static_cast<double>(number_at<std::int16_t>(at, swapped));
-    case 4:
-      return static_cast<double>(number_at<std::uint16_t>(at, swapped));
-    case 5:
-      return static_cast<double>(number_at<std::int32_t>(at, swapped));
-    case 6:
-      return static_cast<double>(number_at<std::uint32_t>(at, swapped));
-    case 7:
-      return static_cast<double>(number_at<float>(at, swapped));
-    case 9:
-      return number_at<double>(at, swapped);
-    case 12:
-      return static_cast<double>(number_at<std::int64_t>(at, swapped));
-    case 13:
-      return static_cast<double>(number_at<std::uint64_t>(at, swapped));
-    default:
-      throw InternalError("a type of numbers that storage_bytes does not know");
-  }
+  const auto as = [&]<typename Number>(Number) { return static_cast<double>(number_at<Number>(at, swapped)); };
+  if (storage == 1) return as(std::int8_t{});
+  if (storage == 2) return as(std::uint8_t{});
+  if (storage == 3) return as(std::int16_t{});
+  if (storage == 4) return as(std::uint16_t{});
+  if (storage == 5) return as(std::int32_t{});
+  if (storage == 6) return as(std::uint32_t{});
+  if (storage == 7) return as(float{});
+  if (storage == 9) return as(double{});
+  if (storage == 12) return as(std::int64_t{});
+  if (storage == 13) return as(std::uint64_t{});
+  throw InternalError("a type of numbers that storage_bytes does not know");
 }
 
 }  // namespace

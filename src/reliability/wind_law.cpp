@@ -72,21 +72,10 @@ void check_wind_law(const WindLaw& law, const std::string& file) {
     if (!(value > 0.0) || !std::isfinite(value))
       throw InputError({"", 0, key}, fmt::format("is {}, expected a positive number", value), "");
   };
-  switch (law.kind) {
-    case WindLaw::Kind::weibull:
-      positive(law.scale_m_s, "wind_law.scale");
-      positive(law.shape, "wind_law.shape");
-      return;
-    case WindLaw::Kind::gumbel:
-      positive(law.gumbel_scale_m_s, "wind_law.gumbel_scale");
-      return;
-    case WindLaw::Kind::code:
-      positive(law.basic_m_s, "wind_law.basic_speed");
-      positive(law.exposure, "exposure");
-      return;
-    case WindLaw::Kind::table:
-      break;
-  }
+  using Kind = WindLaw::Kind;
+  if (law.kind == Kind::weibull) return positive(law.scale_m_s, "wind_law.scale"), positive(law.shape, "wind_law.shape");
+  if (law.kind == Kind::gumbel) return positive(law.gumbel_scale_m_s, "wind_law.gumbel_scale");
+  if (law.kind == Kind::code) return positive(law.basic_m_s, "wind_law.basic_speed"), positive(law.exposure, "exposure");
   const double sum = std::accumulate(law.probability.begin(), law.probability.end(), 0.0);
   if (std::abs(sum - 1.0) > kSumTolerance)
     throw InputError({file, 0, "probability"}, fmt::format("sums to {:.6g} over all classes, expected 1", sum),

@@ -6,7 +6,6 @@
 #include <map>
 #include <numeric>
 #include <string>
-#include <vector>
 
 #include "core/error.hpp"
 #include "model_io/export_matrices.hpp"
@@ -22,17 +21,9 @@ using Eigen::Index;
 
 /// The number of the kind of element in set 2412.
 long descriptor_of(const fe::Element& element) {
-  switch (element.type) {
-    case fe::ElementType::beam:
-      return 21;
-    case fe::ElementType::bar:
-    case fe::ElementType::stay:
-      return 11;
-    case fe::ElementType::shell:
-      return element.nodes.size() == 3 ? 91 : 94;
-    case fe::ElementType::solid:
-      break;
-  }
+  if (element.type == fe::ElementType::beam) return 21;
+  if (element.type == fe::ElementType::bar || element.type == fe::ElementType::stay) return 11;
+  if (element.type == fe::ElementType::shell) return element.nodes.size() == 3 ? 91 : 94;
   constexpr long tetrahedron = 111, hexahedron = 115, of_ten = 118, of_twenty = 116;
   const std::size_t nodes = element.nodes.size();
   return nodes == 4 ? tetrahedron : nodes == 8 ? hexahedron : nodes == 10 ? of_ten : of_twenty;
