@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <mutex>
 #include <numbers>
 #include <utility>
 
@@ -93,9 +92,7 @@ SimulatedEvent simulate_event(const BridgeInWind& bridge, const wind::Turbulence
   if (start.stable.empty()) return {std::move(start.results), {}};
   FieldStatistics statistics(event.name, gusts.simulators(), config.seeds);
 
-  std::mutex counting;
-  Index done = 0;
-  parallel_for(config.seeds, [&](long seed) {
+  const auto run_seed = [&](long seed) {
     const std::uint64_t own = first_seed * 1000003 + static_cast<std::uint64_t>(seed);
     const MatrixXd sample = gusts.sample(own);
     statistics.add(seed, sample.bottomRows(sample.rows() - gusts.before()));
@@ -106,9 +103,8 @@ SimulatedEvent simulate_event(const BridgeInWind& bridge, const wind::Turbulence
       result.rms.col(seed) = buffeting::root_mean_squares(response.acceleration_m_s2);
       result.peak.col(seed) = response.acceleration_m_s2.cwiseAbs().colwise().maxCoeff().transpose();
     }
-    const std::scoped_lock lock(counting);
-    reporter.progress(event.name, static_cast<double>(++done), static_cast<double>(config.seeds));
-  });
+  };
+  parallel_for_told(config.seeds, run_seed, [&](int done, int of) { reporter.progress(event.name, done, of); });
   return {std::move(start.results), statistics.checks()};
 }
 

@@ -1,7 +1,6 @@
 #include "ponte/change_study.hpp"
 
 #include <memory>
-#include <mutex>
 #include <utility>
 
 #include "core/parallel.hpp"
@@ -23,9 +22,7 @@ ChangeStudy study_changes(const std::filesystem::path& bridge_toml, const std::s
   }
   const auto count = static_cast<int>(switched.size());
   std::vector<matching::SolvedModel> models(switched.size());
-  std::mutex counting;
-  int done = 0;
-  parallel_for(count, [&](int i) {
+  const auto solve = [&](int i) {
     const auto at = static_cast<std::size_t>(i);
     matching::SolvedModel& solved = models[at];
     solved = matching::solve_modes(dynamics::from_model(ponte::generate_with_changes(bridge_toml, switched[at], mesh)),
@@ -34,9 +31,8 @@ ChangeStudy study_changes(const std::filesystem::path& bridge_toml, const std::s
     solved.loaded.model = std::make_shared<const fe::Model>(*solved.loaded.model);
     solved.loaded.structure.reset();
     solved.loaded.system.stiffness_terms = solved.loaded.system.mass_terms = {};
-    const std::scoped_lock lock(counting);
-    progress(++done, count);
-  });
+  };
+  parallel_for_told(count, solve, progress);
 
   ChangeStudy study;
   study.before_Hz = models[0].modes.frequency_Hz.head(n_modes);
