@@ -7,8 +7,6 @@
 #include <map>
 #include <numbers>
 
-#include "aero/aeroelastic_system.hpp"
-
 namespace twindeck::aero {
 namespace {
 

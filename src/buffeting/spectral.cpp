@@ -6,7 +6,6 @@
 #include <complex>
 #include <numbers>
 #include <utility>
-#include <vector>
 
 #include "core/error.hpp"
 #include "core/parallel.hpp"

@@ -4,7 +4,6 @@
 
 #include <Eigen/Dense>
 #include <cmath>
-#include <vector>
 
 #include "fe/assembly.hpp"
 #include "fe/assembly_pattern.hpp"

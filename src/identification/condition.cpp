@@ -11,7 +11,6 @@
 #include "identification/common_motion.hpp"
 #include "identification/doubts.hpp"
 #include "identification/limits.hpp"
-#include "identification/merge_preger.hpp"
 #include "identification/mode_choices.hpp"
 #include "identification/one_mode.hpp"
 #include "identification/sampling.hpp"

@@ -11,8 +11,6 @@
 
 namespace twindeck::identification {
 
-using Eigen::Index;
-
 namespace {
 
 constexpr double kPeriodsOfABlock = 2.0;  ///< [-] a shorter block bends frequency and damping

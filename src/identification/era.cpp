@@ -8,7 +8,6 @@
 
 #include "core/error.hpp"
 #include "core/random.hpp"
-#include "identification/state_space.hpp"
 #include "linalg/dense.hpp"
 #include "signal/surrogate_noise.hpp"
 

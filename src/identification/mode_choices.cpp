@@ -4,14 +4,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 #include <optional>
 
 #include "core/error.hpp"
 
 namespace twindeck::identification {
-
-using Eigen::Index;
 
 namespace {
 

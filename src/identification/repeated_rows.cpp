@@ -1,6 +1,5 @@
 #include "identification/repeated_rows.hpp"
 
-#include <algorithm>
 #include <bit>
 
 namespace twindeck::identification {

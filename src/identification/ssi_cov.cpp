@@ -6,7 +6,6 @@
 #include <utility>
 
 #include "core/error.hpp"
-#include "identification/state_space.hpp"
 
 namespace twindeck::identification {
 

@@ -6,7 +6,6 @@
 #include <utility>
 
 #include "core/error.hpp"
-#include "identification/state_space.hpp"
 #include "linalg/dense.hpp"
 
 namespace twindeck::identification {

@@ -6,8 +6,6 @@
 
 namespace twindeck::identification {
 
-using Eigen::Index;
-
 namespace {
 
 const StaySettings* settings_of(const Conditioned& conditioned, const IdentificationSettings& config) {

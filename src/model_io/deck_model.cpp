@@ -3,9 +3,7 @@
 #include <fmt/format.h>
 
 #include <Eigen/Dense>
-#include <Eigen/Geometry>
 #include <algorithm>
-#include <cmath>
 #include <utility>
 
 #include "core/error.hpp"

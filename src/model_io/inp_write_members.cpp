@@ -1,10 +1,7 @@
 #include <fmt/format.h>
 
-#include <Eigen/Geometry>
-
 #include "core/error.hpp"
 #include "fe/assembly_elements.hpp"
-#include "fe/elements.hpp"
 #include "fe/parametric_system.hpp"
 #include "io/csv.hpp"
 #include "model_io/inp_expanded_beam.hpp"

@@ -2,7 +2,6 @@
 
 #include <Eigen/Core>
 #include <array>
-#include <initializer_list>
 #include <optional>
 #include <string>
 #include <vector>

@@ -2,8 +2,6 @@
 
 #include <Eigen/Geometry>
 
-#include "ponte/deck.hpp"
-
 namespace twindeck::ponte {
 
 namespace {

@@ -8,10 +8,8 @@
 
 #include <algorithm>
 #include <cerrno>
-#include <cmath>
 #include <csignal>
 #include <fstream>
-#include <functional>
 
 #include "core/error.hpp"
 #include "records/array_choice.hpp"

@@ -6,7 +6,6 @@
 
 namespace twindeck::reliability {
 
-using Eigen::Index;
 using Eigen::VectorXd;
 
 namespace {

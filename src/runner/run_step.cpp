@@ -9,12 +9,9 @@
 #include <chrono>
 #include <csignal>
 #include <cstdio>
-#include <filesystem>
 #include <limits>
-#include <map>
 #include <new>
 #include <stdexcept>
-#include <string>
 #include <string_view>
 #include <system_error>
 

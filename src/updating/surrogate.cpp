@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
-#include <utility>
 
 #include "core/parallel.hpp"
 #include "linalg/cholesky.hpp"

@@ -3,7 +3,6 @@
 #include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
-#include <vector>
 
 #include "core/error.hpp"
 #include "updating/bounded_quadratic.hpp"

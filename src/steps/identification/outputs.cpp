@@ -6,11 +6,9 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
-#include <string>
 
 #include "core/error.hpp"
 #include "io/atomic.hpp"
-#include "io/csv.hpp"
 #include "steps/identification/exports.hpp"
 
 namespace twindeck::steps {

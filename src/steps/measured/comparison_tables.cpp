@@ -1,8 +1,5 @@
 #include "steps/measured/comparison_tables.hpp"
 
-#include <cmath>
-#include <optional>
-
 #include "io/csv.hpp"
 
 namespace twindeck::steps {

@@ -1,7 +1,6 @@
 #include "steps/model/model_tables.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <map>
 #include <optional>
 #include <set>

@@ -15,7 +15,6 @@
 #include "steps/measured/measured_input.hpp"
 #include "steps/shared/config_parts.hpp"
 #include "steps/shared/model_source.hpp"
-#include "steps/wind/deck_files.hpp"
 
 namespace twindeck::steps {
 namespace {

@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <cmath>
-#include <optional>
 
 #include "core/distributions.hpp"
 #include "io/csv.hpp"
