@@ -63,9 +63,8 @@ ReducedStructure ReducedStructure::restricted(const std::vector<Eigen::Index>& c
   out.omega_rad_s = omega_rad_s(coordinates);
   out.damping_ratio = damping_ratio(coordinates);
   if (viscous.size() > 0) out.viscous = viscous(coordinates, coordinates);
-  for (const MaxwellUnit& unit : maxwell) {
+  for (const MaxwellUnit& unit : maxwell)
     out.maxwell.push_back({unit.stiffness_N_m, unit.damping_N_s_m, unit.direction(coordinates)});
-  }
   return out;
 }
 

@@ -22,15 +22,13 @@ Equations WindSettings::equation_choice() const {
 
 std::vector<Deployment> WindSettings::deployments() const {
   std::vector<Deployment> list;
-  for (const std::string& name : models) {
+  for (const std::string& name : models)
     list.push_back(aero::everywhere(name == oblique_rule ? aero::oblique_rule_H() : aero::published_yaw_rule(name)));
-  }
   if (!hybrid.empty()) {
     Deployment mixed = aero::everywhere(aero::published_yaw_rule(hybrid_inner));
     mixed.name = "hybrid";
-    for (const HybridZone& zone : hybrid) {
+    for (const HybridZone& zone : hybrid)
       mixed.zones.push_back({zone.deck, zone.beyond_deg * std::numbers::pi / 180.0, aero::published_yaw_rule(hybrid_outer)});
-    }
     list.push_back(mixed);
   }
   return list;

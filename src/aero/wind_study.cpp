@@ -143,11 +143,9 @@ std::optional<StaticDifference> static_difference(const std::vector<StaticRespon
 
 double least_damping(const DampingCurves& curves, double up_to_m_s) {
   double least = 1.0;
-  for (const Branch& branch : curves.branches) {
-    for (std::size_t i = 0; i < branch.points.size(); ++i) {
+  for (const Branch& branch : curves.branches)
+    for (std::size_t i = 0; i < branch.points.size(); ++i)
       if (branch.speed_m_s[i] <= up_to_m_s) least = std::min(least, branch.points[i].damping_ratio());
-    }
-  }
   return least;
 }
 

@@ -57,16 +57,14 @@ YawRule oblique_rule_H() {
 const YawRule& published_yaw_rule(const std::string& name) {
   const std::vector<YawRule>& rules = published_yaw_rules();
   const auto found = std::find_if(rules.begin(), rules.end(), [&](const YawRule& rule) { return rule.name == name; });
-  if (found == rules.end()) {
+  if (found == rules.end())
     throw InputError({"", 0, "rule"}, "'" + name + "' is no model of Table 11", "choose one of A, C, D, G, H, I");
-  }
   return *found;
 }
 
 const YawRule& Deployment::at(const std::string& deck, double yaw_rad) const {
-  for (const Zone& zone : zones) {
+  for (const Zone& zone : zones)
     if (zone.deck == deck && std::abs(yaw_rad) > zone.beyond_rad) return zone.rule;
-  }
   return everywhere;
 }
 

@@ -26,11 +26,9 @@ class Errors {
   }
   [[nodiscard]] bool complete() const {
     for (const char* run : {"NS1", "NS2", "NS3"}) {
-      for (const char* event : {"August", "April"}) {
-        for (int m = 1; m <= 8; ++m) {
+      for (const char* event : {"August", "April"})
+        for (int m = 1; m <= 8; ++m)
           if (!value_.contains(fmt::format("{}|{}|M{}", run, event, m))) return false;
-        }
-      }
     }
     return true;
   }
@@ -89,11 +87,9 @@ std::vector<PaperStatement> paper_statements(const std::vector<RunResult>& resul
     best("NS 1 is closest in August", "August", inner, "NS1");
     best("NS 2 is the best approximation in April", "April", all, "NS2");
     double largest = 0.0;
-    for (const std::string& run : runs) {
-      for (const int m : inner) {
+    for (const std::string& run : runs)
+      for (const int m : inner)
         if (!(run == "NS2" && m == 7)) largest = std::max(largest, std::abs(errors.at(run, "August", m)));
-      }
-    }
     put("Errors in August are below 26 % but for M7 in NS 2 (M1 and M8 aside)", fmt::format("largest {:.1f} %", largest),
         largest < 26.0);
   }

@@ -190,9 +190,8 @@ std::vector<MatrixXd> response_spectra_slopes(const aero::AeroelasticSystem& sys
 
 VectorXd band_rms(const Eigen::Ref<const VectorXd>& f_Hz, const Eigen::Ref<const MatrixXd>& spectra) {
   VectorXd variance = VectorXd::Zero(spectra.cols());
-  for (Index k = 1; k < f_Hz.size(); ++k) {
+  for (Index k = 1; k < f_Hz.size(); ++k)
     variance += 0.5 * (f_Hz[k] - f_Hz[k - 1]) * (spectra.row(k) + spectra.row(k - 1)).transpose();
-  }
   return variance.cwiseSqrt();
 }
 

@@ -48,16 +48,14 @@ Eigen::MatrixXd derivative_times(const linalg::SparseMatrix& pattern, const std:
   for (std::size_t t = 0; t < terms.size(); ++t) entries += slope[t] != 0.0 ? terms[t].position.size() : 0;
   if (entries < static_cast<std::size_t>(x.rows()) / 10) {  // a spring, a few bars, nothing at all
     Eigen::MatrixXd y = Eigen::MatrixXd::Zero(x.rows(), x.cols());
-    for (std::size_t t = 0; t < terms.size(); ++t) {
+    for (std::size_t t = 0; t < terms.size(); ++t)
       if (slope[t] != 0.0) add_small_product(pattern, terms[t], slope[t], x, y);
-    }
     return y;
   }
   const Eigen::MatrixXd xt = x.transpose();
   Eigen::MatrixXd yt = Eigen::MatrixXd::Zero(x.cols(), x.rows());
-  for (std::size_t t = 0; t < terms.size(); ++t) {
+  for (std::size_t t = 0; t < terms.size(); ++t)
     if (slope[t] != 0.0) add_product(pattern, terms[t], slope[t], xt, yt);
-  }
   return yt.transpose();
 }
 

@@ -53,11 +53,9 @@ InputError no_common_reference(const std::filesystem::path& folder, const Condit
 }
 
 void list_channels(ConditionResult& result) {
-  for (const SetupResult& setup : result.setups) {
-    for (const records::CampaignChannel& channel : setup.conditioned.channels) {
+  for (const SetupResult& setup : result.setups)
+    for (const records::CampaignChannel& channel : setup.conditioned.channels)
       if (position_of(result.channels, channel.name) < 0) result.channels.push_back(channel);
-    }
-  }
 }
 
 /// Setups of two rates have no common lags.
@@ -109,9 +107,8 @@ Identification preger(const ConditionResult& result, const std::vector<Index>& r
   for (const SetupResult& setup : result.setups) {
     const double level = scales.level[setups.size()];
     SetupCorrelations one{setup.conditioned.setup, positions(result, setup.conditioned.channels), {}, {}};
-    for (const Index r : references) {
+    for (const Index r : references)
       one.references.push_back(position_of(setup.conditioned.channels, result.channels[static_cast<std::size_t>(r)].name));
-    }
     Eigen::VectorXd own(static_cast<Index>(one.channels.size()));
     for (Index c = 0; c < own.size(); ++c) own[c] = level * scale[one.channels[static_cast<std::size_t>(c)]];
     signal::BlockCorrelations blocks;
@@ -274,9 +271,8 @@ void identify_condition(ConditionResult& result, const IdentificationSettings& c
     check_merging(result, common_references(result), fewest->limits);
   }
   // Modes that a person picked stay as they are.
-  if (config.choices.empty()) {
+  if (config.choices.empty())
     for (const std::string& line : merge_modes_that_are_one(result)) reporter.warn(line);
-  }
   for (const std::string& doubt : doubts_of(result)) reporter.warn(doubt);
 }
 

@@ -38,9 +38,8 @@ EfddMode efdd(const SingularSpectra& spectra, double frequency_Hz, double search
   if (f.size() < 8) return mode;
   const double line = f[1] - f[0], reach = std::max(search * frequency_Hz, 1.5 * line);
   Index peak = -1;
-  for (Index i = 1; i + 1 < f.size(); ++i) {
+  for (Index i = 1; i + 1 < f.size(); ++i)
     if (std::abs(f[i] - frequency_Hz) <= reach && (peak < 0 || spectra.values(i, 0) > spectra.values(peak, 0))) peak = i;
-  }
   if (peak < 0) return mode;
   const Eigen::VectorXcd reference = spectra.first_vectors.col(peak);
   const auto alike = [&](Index i) { return std::norm(reference.dot(spectra.first_vectors.col(i))) >= mac; };

@@ -63,9 +63,8 @@ class Distance {
 /// Whether the samples on one side are quiet beside a distance. @param first  next to the group @param step  1 or -1
 bool is_quiet(const Distance& distance, Index first, Index step, double large) {
   std::vector<double> side;
-  for (Index k = 0, t = first; k < kAround && t >= 0 && t < distance.size(); ++k, t += step) {
+  for (Index k = 0, t = first; k < kAround && t >= 0 && t < distance.size(); ++k, t += step)
     if (std::isfinite(distance.at(t))) side.push_back(distance.at(t));
-  }
   return side.empty() || (side.front() < kQuiet * large && upper_median(side) < kQuiet * large);
 }
 
@@ -186,9 +185,8 @@ constexpr double kRounding = 1e-9;   // [-] of the range: values closer than thi
 /// Whether a value at one end holds far more samples than those next to it. @param sign  1: the largest, -1: the smallest
 bool is_rail(const Eigen::Ref<const Eigen::VectorXd>& x, double extreme, double sign, double range) {
   std::vector<double> below;
-  for (Index t = 0; t < x.size(); ++t) {
+  for (Index t = 0; t < x.size(); ++t)
     if (std::isfinite(x[t])) below.push_back(sign * (extreme - x[t]));
-  }
   std::sort(below.begin(), below.end());
   std::vector<long> samples;  // of the extreme value and of those next to it
   auto from = below.begin();

@@ -106,9 +106,8 @@ Sampling choose(const Spectrum& spectrum, const Kind& kind, const std::vector<Sa
   }
   chosen.lowest_Hz = peaks.front();
   const double top = kind.by_reach ? nyquist : kWidestBand * chosen.lowest_Hz;
-  for (const double peak : peaks) {
+  for (const double peak : peaks)
     if (peak <= top) chosen.highest_Hz = peak;
-  }
   if (kind.by_reach) chosen.highest_Hz = std::max(chosen.highest_Hz, std::min(reach_of(spectrum), highest));
   const double kept_Hz = config.highest_Hz > 0.0 ? config.highest_Hz : chosen.highest_Hz;
   const Index shortest = shortest_record(records);
@@ -165,9 +164,8 @@ void settle_sampling(Conditioned& conditioned, const IdentificationSettings& con
   conditioned.notes.push_back(fmt::format("setup {}: {}{}", conditioned.setup, chosen.note,
                                           limited ? "; modes are looked for there (band.highest sets another limit)" : ""));
   if (config.decimation > 0 || chosen.decimation == 1) return;
-  for (std::vector<Samples>* all : {&conditioned.records, &conditioned.excitation}) {
+  for (std::vector<Samples>* all : {&conditioned.records, &conditioned.excitation})
     for (Samples& record : *all) record = signal::detrended(signal::decimated(record, chosen.decimation));
-  }
   conditioned.rate_Hz /= static_cast<double>(chosen.decimation);
   conditioned.filtered = true;
 }

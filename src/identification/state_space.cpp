@@ -43,9 +43,8 @@ void find_poles(OrderModel& model, double rate_Hz) {
   model.mu = eigen.eigenvalues();
   model.right = eigen.eigenvectors();
   model.left = model.right.partialPivLu().inverse();
-  for (Index i = 0; i < model.mu.size(); ++i) {
+  for (Index i = 0; i < model.mu.size(); ++i)
     if (model.mu[i].imag() > 0.0) model.kept.push_back(i);
-  }
   std::sort(model.kept.begin(), model.kept.end(),
             [&](Index i, Index j) { return std::abs(std::log(model.mu[i])) < std::abs(std::log(model.mu[j])); });
   for (const Index i : model.kept) {

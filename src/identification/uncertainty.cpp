@@ -16,9 +16,8 @@ using Eigen::Index;
 PoleFactors pole_factors(const Observability& observability, const ShiftModels& models, const Changes& changes) {
   const Index l = observability.n_outputs;
   PoleFactors factors;
-  for (const OrderModel& model : models.orders) {
+  for (const OrderModel& model : models.orders)
     factors.of.emplace_back(model.poles.size(), Eigen::MatrixXd(2 + 2 * l, static_cast<Index>(changes.size())));
-  }
   for (std::size_t b = 0; b < changes.size(); ++b) {
     for (std::size_t order = 0; order < models.orders.size(); ++order) {
       const auto poles = pole_changes(observability, models, order, changes[b]);

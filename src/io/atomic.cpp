@@ -73,9 +73,8 @@ void clean_up_beside(const fs::path& place) {
     const fs::path owner = fs::read_symlink(at->path() / kOwner, none);
     if (none || owner == here()) partial.push_back(at->path());
   }
-  for (const fs::path& left : old) {
+  for (const fs::path& left : old)
     if (!fs::exists(place, error)) fs::rename(left, place, error);
-  }
   for (const fs::path& left : old) fs::remove_all(left, error);
   for (const fs::path& left : partial) fs::remove_all(left, error);
 }

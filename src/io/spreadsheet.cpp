@@ -43,9 +43,8 @@ int run(const fs::path& program, const fs::path& file, const fs::path& out) {
   posix_spawn_file_actions_destroy(&files);
   if (problem != 0) return -1;
   int status = 0;
-  while (::waitpid(child, &status, 0) < 0) {
+  while (::waitpid(child, &status, 0) < 0)
     if (errno != EINTR) return -1;
-  }
   return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
 }
 

@@ -17,9 +17,8 @@ char order_without_mark(std::string_view text) {
   constexpr std::size_t looked_at = 16;  // bytes
   if (text.size() < looked_at) return 0;
   const auto all = [&](std::size_t letter) {
-    for (std::size_t k = 0; k < looked_at; k += 2) {
+    for (std::size_t k = 0; k < looked_at; k += 2)
       if (text[k + letter] == '\0' || text[k + 1 - letter] != '\0') return false;
-    }
     return true;
   };
   if (all(0)) return '<';
@@ -95,9 +94,8 @@ std::string text_of_file(const std::filesystem::path& file) {
   // A pipe is refused before it is opened, which would wait for a writer.
   if (std::filesystem::exists(file) && !std::filesystem::is_directory(file)) require_regular_file(file);
   TextLines lines(file, longest_text);
-  if (!lines.opened() || std::filesystem::is_directory(file)) {
+  if (!lines.opened() || std::filesystem::is_directory(file))
     throw InputError({file.string(), 0, ""}, "cannot be opened", "check the path and that the file is readable");
-  }
   std::string text;
   for (std::string line; lines.next(line);) (text += line) += '\n';
   if (lines.without_end() && !text.empty()) text.pop_back();

@@ -51,9 +51,8 @@ std::vector<NamedPair> read_pairs(const std::vector<std::string>& entries, Eigen
     if (!pair)
       throw InputError(place, fmt::format("'{}' is no pair, expected for example \"7X-8N\"", entry),
                        "name the measured mode, a dash, and the numerical mode");
-    if (!seen.insert(pair->experimental).second || !seen.insert(numerical_label(pair->numerical)).second) {
+    if (!seen.insert(pair->experimental).second || !seen.insert(numerical_label(pair->numerical)).second)
       throw InputError(place, fmt::format("pair '{}' names a mode that another pair names too", entry), "pair each mode once");
-    }
     if (pair->numerical >= n_numerical)
       throw InputError(place,
                        fmt::format("pair '{}' asks for numerical mode {} of {}", entry, pair->numerical + 1, n_numerical),

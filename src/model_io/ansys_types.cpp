@@ -59,9 +59,8 @@ const ElementType* element_type(const std::string& name) {
 
 std::string element_type_list() {
   std::string list;
-  for (const auto& [number, type] : types()) {
+  for (const auto& [number, type] : types())
     if (type.kind != Kind::load && type.kind != Kind::layered) list += (list.empty() ? "" : ", ") + type.name;
-  }
   return list;
 }
 

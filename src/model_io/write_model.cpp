@@ -23,9 +23,8 @@ void write_parts(const fe::Model& model, const std::filesystem::path& folder) {
   nodes.save(folder / "nodes.csv");
 
   io::CsvWriter materials({"material", "youngs_modulus_Pa", "shear_modulus_Pa", "poisson_ratio", "density_kg_m3"});
-  for (const auto& m : model.materials) {
+  for (const auto& m : model.materials)
     materials.row({m.name, m.youngs_modulus_Pa, m.shear_modulus_Pa, m.poisson_ratio, m.density_kg_m3});
-  }
   materials.save(folder / "materials.csv");
 
   io::CsvWriter sections({"section", "area_m2", "inertia_y_m4", "inertia_z_m4", "inertia_yz_m4", "torsion_m4",
@@ -61,9 +60,8 @@ void write_elements(const fe::Model& model, const std::filesystem::path& folder)
                e.section < 0 ? "" : model.sections[static_cast<std::size_t>(e.section)].name};
     for (std::size_t i = 0; i < node_columns; ++i) row.push_back(node_id(model, i < e.nodes.size() ? e.nodes[i] : -1));
     if (tapers) row.emplace_back(e.section2 < 0 ? "" : model.sections[static_cast<std::size_t>(e.section2)].name);
-    for (const Eigen::Vector3d& v : {e.orientation, e.offset_m[0], e.offset_m[1]}) {
+    for (const Eigen::Vector3d& v : {e.orientation, e.offset_m[0], e.offset_m[1]})
       for (int i = 0; i < 3; ++i) row.emplace_back(v[i]);
-    }
     row.emplace_back(static_cast<int>(e.releases));
     row.emplace_back(e.pull_N);
     if (strains) row.emplace_back(e.free_strain);
@@ -106,9 +104,8 @@ void write_attachments(const fe::Model& model, const std::filesystem::path& fold
   write_constraints(model, folder);
 
   io::CsvWriter masses({"group", "node", "mass_kg", "inertia_x_kg_m2", "inertia_y_kg_m2", "inertia_z_kg_m2"});
-  for (const auto& m : model.masses) {
+  for (const auto& m : model.masses)
     masses.row({m.group, node_id(model, m.node), m.mass_kg, m.inertia_kg_m2.x(), m.inertia_kg_m2.y(), m.inertia_kg_m2.z()});
-  }
   masses.save(folder / "masses.csv");
 
   io::CsvWriter points({"point", "node"});

@@ -60,9 +60,8 @@ class Search {
       before_slope = slope;
       const VectorXd target = down * (down.dot(u) + g / steepness);
       const double aside = (u - down * down.dot(u)).norm();
-      if (aside < std::max(options_.tolerance, 1e-6) * std::max(1.0, u.norm()) && std::abs(g) < options_.tolerance * scale_) {
+      if (aside < std::max(options_.tolerance, 1e-6) * std::max(1.0, u.norm()) && std::abs(g) < options_.tolerance * scale_)
         return point(u, down);
-      }
       const bool far = std::abs(g) > options_.tolerance * scale_;
       const double penalty =
           kPenalty * std::max(u.norm() / steepness, far ? 0.5 * target.squaredNorm() / std::abs(g) : 1e-12 / steepness);

@@ -131,9 +131,8 @@ void check(const RandomInput& input) {
     refuse(fmt::format("has deviation {}, expected zero or more", input.deviation),
            "give the standard deviation as a positive number");
   if (!std::isfinite(input.mean)) refuse(fmt::format("has mean {}, expected a number", input.mean), "give the mean");
-  if (input.low && input.high && !(*input.low < *input.high)) {
+  if (input.low && input.high && !(*input.low < *input.high))
     refuse(fmt::format("has low = {} and high = {}, expected low < high", *input.low, *input.high), "exchange the two");
-  }
   if (input.deviation == 0.0) return;
   if ((input.kind == LawKind::lognormal || input.kind == LawKind::weibull) && !(input.mean > 0.0))
     refuse(fmt::format("has mean {}, and a {} law has values above zero alone", input.mean, law_name(input.kind)),
@@ -149,16 +148,14 @@ void check(const RandomInput& input) {
 }  // namespace
 
 std::optional<LawKind> law_kind(const std::string& name) {
-  for (const auto& [known, kind] : kLaws) {
+  for (const auto& [known, kind] : kLaws)
     if (name == known) return kind;
-  }
   return std::nullopt;
 }
 
 std::string law_name(LawKind kind) {
-  for (const auto& [known, each] : kLaws) {
+  for (const auto& [known, each] : kLaws)
     if (each == kind) return known;
-  }
   return "";
 }
 

@@ -115,11 +115,9 @@ double squared_variation(const Level& level, double limit, double share) {
   double correlation = 0.0;
   for (Index lag = 1; lag < level.chain; ++lag) {
     double sum = 0.0;
-    for (Index c = 0; c < chains; ++c) {
-      for (Index k = 0; k + lag < level.chain; ++k) {
+    for (Index c = 0; c < chains; ++c)
+      for (Index k = 0; k + lag < level.chain; ++k)
         sum += (level.g[c * level.chain + k] <= limit && level.g[c * level.chain + k + lag] <= limit) ? 1.0 : 0.0;
-      }
-    }
     const double at_lag = sum / static_cast<double>(n - lag * chains) - share * share;
     correlation += 2.0 * (1.0 - static_cast<double>(lag) / static_cast<double>(level.chain)) * at_lag / (share * (1.0 - share));
   }

@@ -58,12 +58,10 @@ Study read_study(const std::filesystem::path& folder) {
   auto& [study, seed, file, model_folder, inp, features] = entry;
   const bool generated = !study.model_generator.empty() || !file.empty();
   const int sources = (generated ? 1 : 0) + (model_folder.empty() ? 0 : 1) + (inp.empty() ? 0 : 1);
-  if (sources > 1) {
+  if (sources > 1)
     throw InputError({path.string(), 0, "model"}, "names more than one of generator, folder and inp", "keep one of them");
-  }
-  if (generated && (study.model_generator.empty() || file.empty())) {
+  if (generated && (study.model_generator.empty() || file.empty()))
     throw InputError({path.string(), 0, "model"}, "names only one of generator and file", "give both");
-  }
   study.seed = static_cast<std::uint64_t>(seed);
   study.model_file = file;
   study.model_folder = model_folder;

@@ -20,11 +20,9 @@ struct Options {
 void write_into_bridge(const ponte::Calibration& calibration, const Eigen::VectorXd& part,
                        const std::filesystem::path& bridge) {
   std::map<std::string, std::string> units;
-  for (const ponte::CalibrationValue& value : calibration.values) {
-    for (const std::string& path : value.paths) {
+  for (const ponte::CalibrationValue& value : calibration.values)
+    for (const std::string& path : value.paths)
       if (!units.contains(path) || units[path] == "-") units[path] = value.unit;
-    }
-  }
   for (const auto& [path, number] : calibration.set) units[path] = "-";  // SI, as the file reads a number without a unit
   ponte::write_values(bridge, ponte::bridge_values(calibration, part), units);
 }

@@ -26,9 +26,8 @@ Status run(const steps::IdentificationConfig& config, steps::IdentificationInput
   auto decays = identification::identify_free_decays(read.decays, config, results, context.seed);
   if (read.decays_are_main) {
     results = identification::decay_conditions(decays);
-    for (const identification::ConditionResult& result : results) {
+    for (const identification::ConditionResult& result : results)
       for (const std::string& line : steps::report_lines(result)) context.say(line);
-    }
   }
   identification::require_poles(config.choices, results);
   const auto stays = identification::identify_stays(read.stays, config);

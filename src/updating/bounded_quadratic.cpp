@@ -53,9 +53,8 @@ Eigen::VectorXd bounded_gauss_newton_step(const Eigen::VectorXd& residual, const
   // Each pass holds one component more or releases one; the cost falls strictly between releases.
   for (Eigen::Index pass = 0; pass < 20 * (n + 1); ++pass) {
     std::vector<Eigen::Index> free;
-    for (Eigen::Index i = 0; i < n; ++i) {
+    for (Eigen::Index i = 0; i < n; ++i)
       if (side[static_cast<std::size_t>(i)] == 0) free.push_back(i);
-    }
     const Eigen::VectorXd gradient = slope + hessian * s;
     Eigen::VectorXd direction = Eigen::VectorXd::Zero(n);
     if (!free.empty()) {

@@ -40,9 +40,8 @@ std::vector<Point> points_of(const identification::ConditionResult& result) {
 /// Shortest vector u with d_c · u = value of each channel, in the sense of least squares; zero where the mode is not known.
 Eigen::Vector3cd vector_at(const identification::ConditionResult& result, const Point& point, const Eigen::VectorXcd& shape) {
   std::vector<std::size_t> known;
-  for (const std::size_t c : point.channels) {
+  for (const std::size_t c : point.channels)
     if (!std::isnan(shape[static_cast<Index>(c)].real())) known.push_back(c);
-  }
   if (known.empty()) return Eigen::Vector3cd::Zero();
   Eigen::MatrixXd cosines(static_cast<Index>(known.size()), 3);
   Eigen::VectorXcd values(static_cast<Index>(known.size()));

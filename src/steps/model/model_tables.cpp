@@ -68,11 +68,9 @@ void write_member_forces(const fe::Model* model, const fe::PrestressState& state
 
 void write_dampers(const fe::Model* model, const std::filesystem::path& folder) {
   io::CsvWriter dampers({"damper", "group", "damping_N_s_m", "stiffness_N_m", "arrangement"});
-  if (model != nullptr) {
-    for (const auto& s : model->springs) {
+  if (model != nullptr)
+    for (const auto& s : model->springs)
       if (s.group.starts_with("damper")) dampers.row({s.name, s.group, s.damping, s.stiffness, arrangement_of(s)});
-    }
-  }
   dampers.save(folder / "dampers.csv");
 }
 
@@ -102,9 +100,8 @@ void write_summary(const fe::Model* model, const fe::ParametricSystem& system, c
     part.nodes.insert(e.nodes.begin(), e.nodes.end());
     ++part.pieces[types[type] + "s"];
   }
-  if (part_of) {
+  if (part_of)
     for (const fe::Spring& spring : model->springs) ++parts[part_of(spring.group)].pieces["springs"];
-  }
   count("nodes", model->nodes.size());
   count("elements", model->elements.size());
   for (std::size_t type = 0; type < types.size(); ++type) count(types[type] + "s", of_type[type]);
