@@ -16,10 +16,7 @@ Status run(const steps::UpdatingConfig& asked, const steps::UpdatingInputs& read
   const auto& [model, measured, active, selected, published] = read;
   const dynamics::LoadedModel before = dynamics::solvable(model);
   if (!before.state.status.converged) return before.state.status;
-  steps::UpdatingConfig config = asked;
-  if (measured.modes.has_shapes())
-    config.n_modes = dynamics::modes_for_band(before.system, before.theta, static_cast<int>(asked.n_modes),
-                                              measured.modes.frequency_Hz, asked.maximum_frequency_error);
+  const steps::UpdatingConfig config = asked.for_band_of(measured, before);
 
   // 2. Which measured mode belongs to which computed one.
   const auto modes_before = dynamics::available_modes(before.system, before.theta, static_cast<int>(config.n_modes));

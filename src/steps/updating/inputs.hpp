@@ -14,6 +14,8 @@ namespace twindeck::steps {
 /// Configuration of s6_updating.
 struct UpdatingConfig : updating::UpdatingSettings {
   [[nodiscard]] io::FieldTable fields();
+  /// With as many modes as pairing by shape needs.
+  [[nodiscard]] UpdatingConfig for_band_of(const matching::Measured& measured, const dynamics::LoadedModel& model) const;
 };
 
 /// What the step reads.
