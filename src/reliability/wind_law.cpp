@@ -73,9 +73,12 @@ void check_wind_law(const WindLaw& law, const std::string& file) {
       throw InputError({"", 0, key}, fmt::format("is {}, expected a positive number", value), "");
   };
   using Kind = WindLaw::Kind;
-  if (law.kind == Kind::weibull) return positive(law.scale_m_s, "wind_law.scale"), positive(law.shape, "wind_law.shape");
-  if (law.kind == Kind::gumbel) return positive(law.gumbel_scale_m_s, "wind_law.gumbel_scale");
-  if (law.kind == Kind::code) return positive(law.basic_m_s, "wind_law.basic_speed"), positive(law.exposure, "exposure");
+  if (law.kind == Kind::weibull) positive(law.scale_m_s, "wind_law.scale");
+  if (law.kind == Kind::weibull) positive(law.shape, "wind_law.shape");
+  if (law.kind == Kind::gumbel) positive(law.gumbel_scale_m_s, "wind_law.gumbel_scale");
+  if (law.kind == Kind::code) positive(law.basic_m_s, "wind_law.basic_speed");
+  if (law.kind == Kind::code) positive(law.exposure, "exposure");
+  if (law.kind != Kind::table) return;
   const double sum = std::accumulate(law.probability.begin(), law.probability.end(), 0.0);
   if (std::abs(sum - 1.0) > kSumTolerance)
     throw InputError({file, 0, "probability"}, fmt::format("sums to {:.6g} over all classes, expected 1", sum),
