@@ -48,6 +48,7 @@ help: ## the targets that a user needs
 	@echo
 	@echo "  make sN          step N of the study (s1_model … ): $(STEPS)"
 	@echo "  STUDY=$(STUDY)   the study; MODES=dir  measured modes of your own for s4 and s6; THREADS=$(THREADS)"
+	@echo "  ACCEPT=sN        publish what step N found though it did not converge, marked as such, and go on"
 	@echo "  make help-all    every target"
 
 help-all: ## every target

@@ -113,7 +113,7 @@ define step_rule
 $(firstword $(subst _, ,$(1))) $(1): $(RESULTS)/$(1)/manifest.json
 $(RESULTS)/$(1)/manifest.json: $(call INPUTS_OF,$(1)) $(wildcard $(WORKFLOW)/$(1).toml) $(BIN)/$(1)
 	@n=0; for step in $(STEPS); do n=$$$$((n + 1)); [ $$$$step != $(1) ] || break; done; echo "step $$$$n of $(words $(STEPS)): $(1)" >&2
-	@$(BIN)/$(1) --study $(WORKFLOW) --results $(RESULTS) --out $(RESULTS)/$(1) --threads $(THREADS) $$(OPTIONS_$(1))
+	@$(BIN)/$(1) --study $(WORKFLOW) --results $(RESULTS) --out $(RESULTS)/$(1) --threads $(THREADS) $$(OPTIONS_$(1)) $(if $(filter all $(1) $(firstword $(subst _, ,$(1))),$(ACCEPT)),--accept-unconverged)
 endef
 $(foreach step,$(STEPS),$(eval $(call step_rule,$(step))))
 

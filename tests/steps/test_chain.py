@@ -2,6 +2,7 @@
 
 Oracle: modification times of the manifests (a step that did not run left its manifest alone) and the bytes of every CSV.
 """
+import json
 import os
 import pathlib
 import shutil
@@ -112,3 +113,25 @@ class WhatIsCompiled(unittest.TestCase):
 
 if __name__ == "__main__":
     unittest.main()
+
+
+class Unconverged(unittest.TestCase):
+    def test_the_remedy_that_a_step_names_works_for_the_whole_study(self):
+        """One iteration is too few for any search. What did not converge is marked, and the next step reads it."""
+        folder = pathlib.Path(self.enterContext(tempfile.TemporaryDirectory()))
+
+        def twindeck(*words):
+            environment = {k: v for k, v in os.environ.items() if k not in ("MAKEFLAGS", "MAKELEVEL", "MFLAGS")}
+            return subprocess.run([ROOT / "packaging/twindeck", *words], cwd=folder, capture_output=True, text=True, env=environment)
+
+        self.assertEqual(twindeck("new", "mine").returncode, 0)
+        with (folder / "workflows/mine/s6_updating.toml").open("a") as config:
+            config.write("\nmax_iterations = 1\nouter_iterations = 1\n")
+        refused = twindeck("run", "mine", "s9", f"BIN={BIN}")
+        self.assertEqual(refused.returncode, 2, refused.stderr)
+        self.assertIn("or publish it with --accept-unconverged", refused.stderr)
+        self.assertFalse((folder / "results/mine/s9_diagnosis").exists())
+        accepted = twindeck("run", "mine", "s9", f"BIN={BIN}", "--accept-unconverged")
+        self.assertEqual(accepted.returncode, 0, accepted.stderr)
+        self.assertEqual(json.loads((folder / "results/mine/s6_updating/manifest.json").read_text())["status"], "unconverged")
+        self.assertTrue((folder / "results/mine/s9_diagnosis/diagnosis.json").exists())
