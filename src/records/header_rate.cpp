@@ -72,7 +72,7 @@ bool is_time_name(std::string_view text) {
   static const std::regex time(
       "timestamp"  // "sensorTimestamp_since1970"
       "|(?:^|[^a-z])(?:time|zeit|zeitstempel|uhrzeit|tempo|tiempo|datum|date|datetime|data/ora|elapsed|sec|seconds|epoch|utc"
-      "|millis|t)(?:m?s)?(?![a-z])");  // "time_s", "tms"
+      "|millis|t(?!\\d))(?:m?s)?(?![a-z])");  // "time_s", "tms"; T09y is a sensor
   return std::regex_search(io::lower_case(text), time);
 }
 
