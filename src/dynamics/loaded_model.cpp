@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "dynamics/model_check.hpp"
+#include "dynamics/unit_slips.hpp"
 
 namespace twindeck::dynamics {
 
@@ -70,12 +71,13 @@ int modes_for_band(const fe::ParametricSystem& system, const Eigen::VectorXd& th
                    const Eigen::VectorXd& measured_Hz, double error) {
   constexpr int most = 200;  // what steps solve for at most
   ModalSolver solver(system);
-  double wanted = measured_Hz.size() > 0 ? measured_Hz.maxCoeff() : 0.0;
+  const double highest = highest_of_band(measured_Hz);
+  double wanted = highest;
   for (int n = n_modes;; n = std::min(2 * n, most)) {
     const Eigen::VectorXd found = solver.solve_available(theta, n).frequency_Hz;
     const auto below = static_cast<int>((found.array() < wanted).count());
     if (n == n_modes && below < found.size()) return n_modes;
-    wanted = (1.0 + error) * measured_Hz.maxCoeff();
+    wanted = (1.0 + error) * highest;
     if (found.size() < n || n >= most || found[found.size() - 1] >= wanted)
       return std::max(n_modes, static_cast<int>((found.array() < wanted).count()));
   }

@@ -291,6 +291,14 @@ std::vector<std::string> outliers(const MeasuredFrequencies& measured) {
 
 }  // namespace
 
+double highest_of_band(Eigen::VectorXd measured_Hz) {
+  const Index n = measured_Hz.size();
+  std::sort(measured_Hz.begin(), measured_Hz.end());
+  for (Index gap = 1; gap < n; ++gap)
+    if (measured_Hz[gap] > stands_off * measured_Hz[gap - 1] && n - gap <= gap) return measured_Hz[gap - 1];
+  return n > 0 ? measured_Hz[n - 1] : 0.0;
+}
+
 std::vector<std::string> unit_slips(const fe::Model& model) {
   std::vector<std::string> slips;
   if (model.nodes.empty()) return slips;

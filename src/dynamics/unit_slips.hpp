@@ -44,6 +44,9 @@ struct MeasuredFrequencies {
 /// @param computed_Hz  ascending; empty to leave the comparison out
 [[nodiscard]] std::vector<std::string> measured_slips(const MeasuredFrequencies& measured, const Eigen::VectorXd& computed_Hz);
 
+/// The highest measured frequency that is none of such a slip; 0 without any.
+[[nodiscard]] double highest_of_band(Eigen::VectorXd measured_Hz);
+
 /// Runs all checks, and that of the mesh (doubtful_mesh.hpp), and warns. If the model itself shows an error, the comparison
 /// with the measurement is left out, because it would show the same error.
 /// @param measured  one for each condition; empty without a measurement

@@ -168,6 +168,7 @@ TEST(LoadedModel, ModesReachTheMeasuredBand) {
   EXPECT_EQ(count(3, 0.9 * chain.frequency_Hz(3)), 3) << "the last of them lies above all that is measured";
   EXPECT_EQ(count(3, chain.frequency_Hz(6) / 1.05), 6) << "those within a tenth above";
   EXPECT_EQ(count(3, 2.0 * chain.frequency_Hz(10)), 10) << "as many as there are";
+  EXPECT_EQ(count(3, 1000.0 * chain.frequency_Hz(1)), 3) << "far off the others: a slip of units";
   EXPECT_EQ(modes_for_band(system, system.initial(), 3, {}, 0.1), 3);
 }
 

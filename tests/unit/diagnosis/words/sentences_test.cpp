@@ -50,7 +50,7 @@ TEST(Sentences, ASoftSpringIsToldWithItsPlaceSizeProbabilityAndGain) {
   const diagnosis::Diagnosis& result = spoken.examined.result;
   ASSERT_EQ(result.verdict, diagnosis::Verdict::named);
   const auto& effect = result.effects.front();
-  EXPECT_TRUE(spoken.sentences.why.starts_with("The group g5 has 0.")) << spoken.sentences.why;
+  EXPECT_TRUE(spoken.sentences.why.starts_with("The stiffness of the group g5 is 0.")) << spoken.sentences.why;
   EXPECT_NE(spoken.sentences.why.find("90 % intervals: factor " + diagnosis::number_in_words(effect.parameters[0].low) +
                                       " to " + diagnosis::number_in_words(effect.parameters[0].high)),
             std::string::npos)
