@@ -152,7 +152,8 @@ TEST(TimeName, IsAWordOfTheName) {
                            "Data/Ora", "sec", "x_time", "sensorTimestamp_since1970(s)", "Zeitstempel"}) {
     EXPECT_TRUE(is_time_name(name)) << name;
   }
-  for (const char* name : {"A_x", "top", "TR1", "T09y", "T1", "strain", "east", "overtime"}) EXPECT_FALSE(is_time_name(name)) << name;
+  for (const char* name : {"A_x", "top", "TR1", "T09y", "T1", "strain", "east", "overtime"})
+    EXPECT_FALSE(is_time_name(name)) << name;
 }
 
 TEST(Cells, DatesAndNumbers) {
