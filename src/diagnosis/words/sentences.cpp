@@ -306,7 +306,7 @@ double mean_of(const std::vector<HeldOutMode>& modes, double HeldOutMode::*what)
   return count > 0 ? sum / count : std::numeric_limits<double>::quiet_NaN();
 }
 
-/// Whether the mean error grows by more than its own standard error: what is less is no difference.
+/// Whether the mean error grows by more than its own standard error. A smaller growth may be chance.
 bool frequencies_get_worse(const Gain& gain) {
   const auto n = static_cast<Eigen::Index>(gain.modes.size());
   if (n == 0) return false;

@@ -10,9 +10,7 @@ import csv
 import json
 import pathlib
 import shutil
-import subprocess
 import sys
-import time
 
 HERE = pathlib.Path(__file__).resolve().parent
 sys.path[:0] = [str(HERE), str(HERE.parent / "exam")]
@@ -20,18 +18,11 @@ import folders  # noqa: E402
 import hidden  # noqa: E402
 import rated  # noqa: E402
 from intervals import share  # noqa: E402
+from trials import run, write_score  # noqa: E402
 
 COLUMNS = (
     "seed", "structure", "kind", "version", "set", "hidden", "visible", "verdict", "rating", "found", "effects", "modes", "seconds_identification", "seconds_diagnosis",
 )
-
-
-def run(*arguments):
-    start = time.monotonic()
-    done = subprocess.run([str(a) for a in arguments], capture_output=True, text=True)
-    if done.returncode != 0:
-        raise RuntimeError(f"{pathlib.Path(arguments[0]).name}: exit {done.returncode}: {(done.stderr.strip().splitlines() or [''])[-1]}")
-    return time.monotonic() - start
 
 
 def modes_in(features):
@@ -97,16 +88,6 @@ def lines(rows):
             yield f"{value}: right", share(sum(r["rating"] == "right" for r in here), len(here))
 
 
-def write_score(table):
-    with open(table, newline="", encoding="utf-8") as stream:
-        rows = list(csv.DictReader(stream))
-    versions = sorted({r["version"] for r in rows if r["version"]}) or ["step 9 was not run"]
-    text = f"twindeck {', '.join(versions)}; {len(rows)} trials\n\n| | rate, exact 95 % interval |\n|---|---|\n"
-    text += "".join(f"| {what} | {value} |\n" for what, value in lines(rows))
-    table.with_suffix(".md").write_text(text, encoding="utf-8")
-    print("\n" + text)
-
-
 def arguments():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("bin", type=pathlib.Path)
@@ -147,7 +128,7 @@ def main():
             if not told.keep:
                 shutil.rmtree(work)
     if not told.count:
-        write_score(table)
+        write_score(table, lines)
 
 
 if __name__ == "__main__":

@@ -13,9 +13,7 @@ import csv
 import json
 import pathlib
 import shutil
-import subprocess
 import sys
-import time
 
 HERE = pathlib.Path(__file__).resolve().parent
 sys.path[:0] = [str(HERE), str(HERE.parent / "exam")]
@@ -24,19 +22,12 @@ import folders  # noqa: E402
 import hidden  # noqa: E402
 import rated  # noqa: E402
 from intervals import share  # noqa: E402
+from trials import run, write_score  # noqa: E402
 
 COLUMNS = (
     "seed", "number", "kind", "version", "set", "form_error_pct", "severity", "channels", "modes", "shape_deviation_pct", "hidden", "sigma", "verdict", "rating",
     "part_beside", "rank_of_truth", "effects", "frequency_scale_pct", "shape_scale_pct", "seconds_diagnosis",
 )
-
-
-def run(*arguments):
-    start = time.monotonic()
-    done = subprocess.run([str(a) for a in arguments], capture_output=True, text=True)
-    if done.returncode != 0:
-        raise RuntimeError(f"{pathlib.Path(arguments[0]).name}: exit {done.returncode}: {(done.stderr.strip().splitlines() or [''])[-1]}")
-    return time.monotonic() - start
 
 
 def ranking_of(folder):
@@ -94,15 +85,6 @@ def lines(rows):
             yield f"{words.format(value)}: right", rated_as("right", [r for r in causes if r[column] == value])
 
 
-def write_score(table):
-    with open(table, newline="", encoding="utf-8") as stream:
-        rows = list(csv.DictReader(stream))
-    text = f"twindeck {', '.join(sorted({r['version'] for r in rows if r['version']}))}; {len(rows)} trials\n\n| | rate, exact 95 % interval |\n|---|---|\n"
-    text += "".join(f"| {what} | {value} |\n" for what, value in lines(rows))
-    table.with_suffix(".md").write_text(text, encoding="utf-8")
-    print("\n" + text)
-
-
 def arguments():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("bin", type=pathlib.Path)
@@ -142,7 +124,7 @@ def main():
             csv.DictWriter(stream, COLUMNS, lineterminator="\n").writerow(row)
         print(f"{head}: {row.get('verdict', '-')} {row['rating']} | hidden {row['hidden']} | {row['effects']}", flush=True)
     if not told.count:
-        write_score(table)
+        write_score(table, lines)
 
 
 if __name__ == "__main__":
