@@ -14,9 +14,7 @@ import functools
 import json
 import pathlib
 import shutil
-import subprocess
 import sys
-import time
 
 import numpy as np
 
@@ -33,6 +31,7 @@ from identified import MODE_COLUMNS, counts, mode_rows  # noqa: E402
 from least_squares import fit_shares  # noqa: E402
 from measured_modes import read_modes  # noqa: E402
 from score import write_score  # noqa: E402
+from trials import run  # noqa: E402
 
 SOUND_PAIRS = 3  # of each case and seed
 COLUMNS = (
@@ -65,14 +64,6 @@ def groups():
     for storey in range(1, frame.FLOORS + 1):
         for faces in (frame.ALL_FACES, ("x0", "x2"), ("y0", "y2")):
             yield tuple(PARTS.index((storey, face)) for face in faces)
-
-
-def run(*arguments):
-    start = time.monotonic()
-    done = subprocess.run([str(a) for a in arguments], capture_output=True, text=True)
-    if done.returncode != 0:
-        raise RuntimeError(f"{pathlib.Path(arguments[0]).name}: exit {done.returncode}: {done.stderr.strip().splitlines()[-1:]}")
-    return time.monotonic() - start
 
 
 def least_squares_row(change, losses):

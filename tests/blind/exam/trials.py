@@ -1,4 +1,4 @@
-"""What drivers of trials share: a step that is run and timed, and a score beside the table of results."""
+"""What drivers of trials share: they run and time a step, and write a score beside the table of results."""
 import csv
 import pathlib
 import subprocess
