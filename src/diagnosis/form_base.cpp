@@ -117,7 +117,7 @@ Fit first_fit(const Inference& plain, const Inference& informed) {
   Fit fit = quiet.fit({}, {});
   std::vector<int> opened;
   while (fit.made()) {  // each round opens more modes than the last
-    LawSystem system = law_system(exact, fit, {});
+    FitSystem system = law_system(exact, fit, {});
     if (!can_be_weighed(system)) break;
     const LawHypothesis none{system.residual,        VectorXd::Zero(1), MatrixXd(system.residual.size(), 0), {}, {},
                              lasting_classes(system)};

@@ -95,7 +95,7 @@ VectorXd variance_of_open(const FeatureMap& map, const MeasuredMode& mode) {
 
 double log_prior_of_open() { return std::log(kNoneOfTheModels); }
 
-LawSystem law_system(const Inference& plain, const Fit& fit, const std::vector<Contrast>& contrasts, std::size_t tested) {
+FitSystem law_system(const Inference& plain, const Fit& fit, const std::vector<Contrast>& contrasts, std::size_t tested) {
   TWINDECK_ASSERT(fit.made() && tested <= fit.causes.size());
   const FeatureMap& map = plain.map();
   const std::vector<int>& rows = plain.training();
@@ -107,14 +107,16 @@ LawSystem law_system(const Inference& plain, const Fit& fit, const std::vector<C
   for (Index k = 0; k < n; ++k)
     (map.nuisances()[static_cast<std::size_t>(k)].kind == Nuisance::Kind::gain ? gains : known).push_back(static_cast<int>(k));
   for (Index k = n; k < j.cols() - asked; ++k) known.push_back(static_cast<int>(k));
-  const FormModes modes = map.form_modes(fit.base, fit.causes);
-  const FormColumns form = form_columns(modes.structures, modes.paired, fit.all.g);
+  FitSystem out;
+  out.modes = map.form_modes(fit.base, fit.causes);
+  for (const int mode : fit.all.paired) out.unpaired.push_back(mode < 0);
+  const std::vector<PairedMode>& paired = out.modes.paired;
+  const FormColumns form = form_columns(out.modes.structures, paired, fit.all.g);
   std::vector<double> frequency_Hz;
   for (const MeasuredMode& mode : map.measured_modes()) frequency_Hz.push_back(mode.frequency_Hz);
-  const MatrixXd rotations = close_rotations(modes.paired, frequency_Hz, map.values());
+  const MatrixXd rotations = close_rotations(paired, frequency_Hz, map.values());
   const MatrixXd fixed =
       beside({j(Eigen::all, known), kWideScale * fit.map.scales, rotations(rows, Eigen::all)}, std::ssize(rows));
-  LawSystem out;
   out.sigma = plain.covariance() + linalg::square(fixed);
   const auto [variance, log_prior] = open_modes(map, fit.all);
   out.sigma.diagonal() += variance(rows);

@@ -14,6 +14,12 @@ enum LawClass : int { kFrequencies, kShapes, kKinks, kGains, kFirstContrast };
 
 constexpr double kUnitOfClasses = 0.01;  ///< [-] of a scale of 1: about what a carefully fitted model is off
 
+/// The system of a fit, with the modes that its errors of form are made of.
+struct FitSystem : LawSystem {
+  FormModes modes;
+  std::vector<bool> unpaired;  ///< (n_measured_modes) open by the pairing itself
+};
+
 /// Residual y - g + J x and classes of the training rows at a fit. Unit scale of a class: 1 % of each model mode's frequency;
 /// a random symmetric stiffness of 1 % in the model's modes; 0.25 % of a shape's norm at each mode and channel; 1 % of each
 /// channel's gain. A contrast has those of frequencies, shapes and kinks together, weighted by it. Sigma_0 holds the errors of
@@ -22,7 +28,7 @@ constexpr double kUnitOfClasses = 0.01;  ///< [-] of a scale of 1: about what a 
 /// coordinates) and leave the residual.
 /// A contrast whose weights are all zero has no columns.
 /// @param plain  with the covariance of identification alone
-[[nodiscard]] LawSystem law_system(const Inference& plain, const Fit& fit, const std::vector<Contrast>& contrasts,
+[[nodiscard]] FitSystem law_system(const Inference& plain, const Fit& fit, const std::vector<Contrast>& contrasts,
                                    std::size_t tested = 0);
 
 /// Variance of the rows of a measured mode that is none of the model's, wide enough for any mode of the band, and 0 of all

@@ -3,7 +3,10 @@
 #include <Eigen/Cholesky>
 #include <algorithm>
 #include <map>
+#include <numbers>
+#include <set>
 #include <string>
+#include <tuple>
 #include <utility>
 
 #include "linalg/dense.hpp"
@@ -16,39 +19,108 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-/// Rows of a mode among the training rows, and their variance if it is none of the model's. Within a state one name is one
-/// mode: it is the model's in all conditions or in none, and no hypothesis may say that it is another at a large amplitude.
-struct OpenRows {
-  std::vector<int> modes;  ///< measured ones
-  std::vector<int> rows;
-  std::vector<double> variance;
-  [[nodiscard]] double log_prior() const { return static_cast<double>(modes.size()) * log_prior_of_open(); }
+constexpr double kOwn = 0.01;  // of a shape, and of ln f: what each record has of its own of a mode that the model lacks
+
+/// What a mode may be that is none of the model's: a covariance of its rows.
+struct Opening {
+  MatrixXd covariance;
+  double log_prior = 0.0;
 };
 
-std::vector<OpenRows> modes_that_may_open(const Inference& plain, const LawSystem& system) {
+/// A mode that may be none of the model's. Within a state one name is one mode: it is the model's in all conditions or in none,
+/// and no hypothesis may say that it is another at a large amplitude.
+struct OpenMode {
+  std::vector<int> modes;  ///< measured ones
+  std::vector<int> rows;   ///< among the training rows
+  bool is_open = false;
+  Opening now;  ///< as the system holds it
+  std::vector<Opening> openings;
+};
+
+/// Shapes at the channels that forces of any distribution give the structure at the frequency of a measured mode: modes by
+/// their distance from it (n_channels × n_modes). What the model lacks shakes the rest of the structure in such a shape. A mode
+/// within the measured band that is nobody else's is left out: the measured one would be that very mode, moved.
+MatrixXd forced_shapes(const FeatureMap& map, const FitSystem& system, std::size_t measured) {
+  const int structure = system.modes.paired[measured].structure;
+  const ModelModes& modes = system.modes.structures[static_cast<std::size_t>(structure)];
+  std::set<int> taken;
+  for (std::size_t m = 0; m < system.modes.paired.size(); ++m)
+    if (system.modes.paired[m].structure == structure && !system.unpaired[m] &&
+        map.measured_modes()[m].label != map.measured_modes()[measured].label)
+      taken.insert(system.modes.paired[m].own_mode);
+  MatrixXd out = modes.shapes;
+  for (Index j = 0; j < out.cols(); ++j) {
+    const bool is_free = !taken.empty() && j < *taken.rbegin() && !taken.contains(static_cast<int>(j));
+    out.col(j) *=
+        is_free ? 0.0 : turning(modes.omega_rad_s[j], 2.0 * std::numbers::pi * map.measured_modes()[measured].frequency_Hz);
+  }
+  return out;
+}
+
+/// Errors of a mode that the model lacks: real parts are one shape that the structure is forced into, times the size and the
+/// sign of each record, and ln f is one number. Besides, each record has a little of its own; damping and imaginary parts are
+/// as open as those of a spurious mode. @param spurious  (n_rows of the mode) variance of such a one
+MatrixXd of_a_lacking_mode(const FeatureMap& map, const FitSystem& system, const OpenMode& open,
+                           const std::vector<int>& training, const VectorXd& spurious) {
+  const MatrixXd shapes = forced_shapes(map, system, static_cast<std::size_t>(open.modes.front()));
+  VectorXd reference = VectorXd::Zero(shapes.rows()), own = VectorXd::Ones(map.values().size());
+  MatrixXd columns = MatrixXd::Zero(map.values().size(), shapes.cols() + 1);
+  for (const int m : open.modes) {
+    const MeasuredMode& mode = map.measured_modes()[static_cast<std::size_t>(m)];
+    const VectorXd values = map.values()(mode.real_rows);
+    const MatrixXd here = shapes(mode.real_channels, Eigen::all);
+    const double sign = values.dot(reference(mode.real_channels)) < 0.0 ? -1.0 : 1.0, norm = here.norm();
+    if (norm > 0.0) columns(mode.real_rows, Eigen::seq(0, Eigen::last - 1)) = sign * values.norm() / norm * here;
+    reference(mode.real_channels) += sign * values;
+    own(mode.real_rows).setConstant(kOwn * kOwn);
+    if (mode.frequency < 0) continue;
+    own[mode.frequency] = kOwn * kOwn;
+    columns(mode.frequency, columns.cols() - 1) = std::sqrt(variance_of_open(map, mode)[mode.frequency]);
+  }
+  std::vector<int> rows;
+  for (const int at : open.rows) rows.push_back(training[static_cast<std::size_t>(at)]);
+  MatrixXd out = linalg::square(MatrixXd(columns(rows, Eigen::all)));
+  out.diagonal() += own(rows).cwiseProduct(spurious);
+  return out;
+}
+
+std::vector<OpenMode> modes_that_may_open(const Inference& plain, const FitSystem& system) {
   const FeatureMap& map = plain.map();
-  std::map<std::pair<std::string, std::string>, OpenRows> by_name;  // state, label
+  std::map<std::tuple<std::string, std::string, bool>, OpenMode> by_name;  // state, label, whether the pairing left it open
+  const VectorXd sigma = system.sigma.diagonal();
   for (std::size_t m = 0; m < map.measured_modes().size(); ++m) {
     const MeasuredMode& mode = map.measured_modes()[m];
     if (mode.real_rows.size() < 2) continue;  // no shape tells it from others
-    const VectorXd all = variance_of_open(map, mode);
-    OpenRows here{{static_cast<int>(m)}, {}, {}};
-    bool is_open = true;  // already, or set aside: all its rows are; free scales make some rows of any shape as wide
+    const VectorXd variance = variance_of_open(map, mode);
+    std::vector<int> rows;
+    bool is_aside = true;  // all its rows are; free scales make some rows of any shape as wide
     for (std::size_t at = 0; at < plain.training().size(); ++at) {
-      const double variance = all[plain.training()[at]];
-      if (variance <= 0.0) continue;
-      here.rows.push_back(static_cast<int>(at));
-      here.variance.push_back(variance);
-      is_open = is_open && system.sigma(static_cast<Index>(at), static_cast<Index>(at)) > variance;
+      const double open = variance[plain.training()[at]];
+      if (open <= 0.0) continue;
+      rows.push_back(static_cast<int>(at));
+      is_aside = is_aside && sigma[static_cast<Index>(at)] > open;
     }
-    if (is_open) continue;
-    OpenRows& open = by_name[{map.features().conditions[static_cast<std::size_t>(mode.condition)].state, mode.label}];
-    open.modes.insert(open.modes.end(), here.modes.begin(), here.modes.end());
-    open.rows.insert(open.rows.end(), here.rows.begin(), here.rows.end());
-    open.variance.insert(open.variance.end(), here.variance.begin(), here.variance.end());
+    const bool is_open = system.unpaired[m];
+    if (rows.empty() || (is_aside && !is_open)) continue;
+    OpenMode& open = by_name[{map.features().conditions[static_cast<std::size_t>(mode.condition)].state, mode.label, is_open}];
+    open.is_open = is_open;
+    open.modes.push_back(static_cast<int>(m));
+    open.rows.insert(open.rows.end(), rows.begin(), rows.end());
   }
-  std::vector<OpenRows> out;
-  for (auto& [name, open] : by_name) out.push_back(std::move(open));
+  // Between states the model lacks the same modes: what differs is a change, which causes are to explain.
+  const bool may_lack = states_of(map.features()).size() == 1 && !system.modes.structures.empty();
+  std::vector<OpenMode> out;
+  for (auto& [name, open] : by_name) {
+    VectorXd spurious(std::ssize(open.rows)), all = VectorXd::Zero(map.values().size());
+    for (const int m : open.modes) all += variance_of_open(map, map.measured_modes()[static_cast<std::size_t>(m)]);
+    for (Index k = 0; k < spurious.size(); ++k)
+      spurious[k] = all[plain.training()[static_cast<std::size_t>(open.rows[static_cast<std::size_t>(k)])]];
+    open.openings = {{spurious.asDiagonal(), static_cast<double>(open.modes.size()) * log_prior_of_open()}};
+    open.now = open.is_open ? open.openings.front() : Opening{MatrixXd::Zero(spurious.size(), spurious.size())};
+    if (may_lack)
+      open.openings.push_back({of_a_lacking_mode(map, system, open, plain.training(), spurious), log_prior_of_open()});
+    out.push_back(std::move(open));
+  }
   return out;
 }
 
@@ -58,15 +130,21 @@ double log_density(const VectorXd& e, const MatrixXd& covariance) {
   return -0.5 * linalg::lower_solve(lower, e).squaredNorm() - lower.diagonal().array().log().sum();
 }
 
-/// What each mode gains by being open at these scales, those that gain nothing left out, the best first. A mode's rows are held
-/// against what all other rows predict of them.
-std::vector<std::pair<double, int>> gains_of_opening(const LawSystem& system, const LawHypothesis& hypothesis,
-                                                     const LawEvidence& at, const std::vector<OpenRows>& modes) {
+/// A better opening of a mode, and what it gains.
+struct BetterOpening {
+  double nats = 0.0;
+  std::size_t mode = 0, opening = 0;
+};
+
+/// What each mode gains by another opening at these scales, those that gain nothing left out, the best first. A mode's rows are
+/// held against what all other rows predict of them.
+std::vector<BetterOpening> gains_of_opening(const LawSystem& system, const LawHypothesis& hypothesis, const LawEvidence& at,
+                                            const std::vector<OpenMode>& modes) {
   MatrixXd sigma = system.sigma;
   for (std::size_t c = 0; c < system.classes.size(); ++c)
     if (const double tau = at.tau[static_cast<Index>(c)]; tau > 0.0) sigma += tau * tau * linalg::square(system.classes[c]);
   const MatrixXd lower = linalg::cholesky_factor(std::move(sigma));
-  std::vector<std::pair<double, int>> out;
+  std::vector<BetterOpening> out;
   if (lower.size() == 0) return out;
   const MatrixXd precision = linalg::inverse_of_factored(lower);
   Index best = 0;
@@ -75,16 +153,20 @@ std::vector<std::pair<double, int>> gains_of_opening(const LawSystem& system, co
   if (hypothesis.slopes.cols() > 0) left -= hypothesis.slopes * at.shift;
   const VectorXd weighed = precision * left;
   for (std::size_t k = 0; k < modes.size(); ++k) {
-    const OpenRows& open = modes[k];
+    const OpenMode& open = modes[k];
     const auto n = std::ssize(open.rows);
     const MatrixXd covariance = precision(open.rows, open.rows).ldlt().solve(MatrixXd::Identity(n, n));
     const VectorXd e = covariance * weighed(open.rows);
-    const VectorXd variance = Eigen::Map<const VectorXd>(open.variance.data(), n);
-    const double gain =
-        log_density(e, covariance + MatrixXd(variance.asDiagonal())) - log_density(e, covariance) + open.log_prior();
-    if (gain > 0.0) out.emplace_back(gain, static_cast<int>(k));
+    const double now = log_density(e, covariance) + open.now.log_prior;
+    BetterOpening most;
+    for (std::size_t o = 0; o < open.openings.size(); ++o) {
+      const Opening& opening = open.openings[o];
+      const double nats = log_density(e, covariance - open.now.covariance + opening.covariance) + opening.log_prior - now;
+      if (nats > most.nats) most = {nats, k, o};
+    }
+    if (most.nats > 0.0) out.push_back(most);
   }
-  std::sort(out.rbegin(), out.rend());
+  std::ranges::sort(out, std::greater{}, &BetterOpening::nats);
   return out;
 }
 
@@ -103,39 +185,36 @@ Fit fit_with_open(const Inference& inference, const std::vector<int>& modes, con
   return Inference(map, inference.candidates()).fit(causes, start);
 }
 
-OpenedEvidence scored_with_openings(const Inference& plain, LawSystem& system, const LawHypothesis& hypothesis,
+OpenedEvidence scored_with_openings(const Inference& plain, FitSystem& system, const LawHypothesis& hypothesis,
                                     const VectorXd& start) {
   OpenedEvidence out;
   if (const OneLaw law(system); law.sound()) out.evidence = law.scored(hypothesis, start);
-  std::vector<OpenRows> modes = modes_that_may_open(plain, system);
+  std::vector<OpenMode> modes = modes_that_may_open(plain, system);
   bool more = out.evidence.weight.size() > 0;
   while (more) {
     more = false;
-    const auto gains = gains_of_opening(system, hypothesis, out.evidence, modes);
+    const std::vector<BetterOpening> gains = gains_of_opening(system, hypothesis, out.evidence, modes);
     // All that gain by themselves, or else the one that gains most: two that explain each other need not both be open.
     for (std::size_t count = gains.size(); count > 0 && !more; count = count > 1 ? 1 : 0) {
-      const VectorXd before = system.sigma.diagonal();
-      const double prior = system.log_prior;
+      LawSystem changed = system;
       for (std::size_t k = 0; k < count; ++k) {
-        const OpenRows& open = modes[static_cast<std::size_t>(gains[k].second)];
-        for (std::size_t r = 0; r < open.rows.size(); ++r) system.sigma(open.rows[r], open.rows[r]) += open.variance[r];
-        system.log_prior += open.log_prior();
+        const OpenMode& open = modes[gains[k].mode];
+        const Opening& opening = open.openings[gains[k].opening];
+        changed.sigma(open.rows, open.rows) += opening.covariance - open.now.covariance;
+        changed.log_prior += opening.log_prior - open.now.log_prior;
       }
       LawEvidence evidence;
-      if (const OneLaw law(system); law.sound()) evidence = law.scored(hypothesis, out.evidence.tau);
+      if (const OneLaw law(changed); law.sound()) evidence = law.scored(hypothesis, out.evidence.tau);
       more = evidence.weight.size() > 0 && evidence.log_evidence > out.evidence.log_evidence;
-      if (!more) {
-        system.sigma.diagonal() = before;
-        system.log_prior = prior;
-        continue;
-      }
+      if (!more) continue;
+      static_cast<LawSystem&>(system) = std::move(changed);
       out.evidence = std::move(evidence);
       for (std::size_t k = 0; k < count; ++k) {
-        OpenRows& open = modes[static_cast<std::size_t>(gains[k].second)];
-        out.opened.insert(out.opened.end(), open.modes.begin(), open.modes.end());
-        open.rows.clear();
+        OpenMode& open = modes[gains[k].mode];
+        if (!open.is_open) out.opened.insert(out.opened.end(), open.modes.begin(), open.modes.end());
+        open.is_open = true;
+        open.now = open.openings[gains[k].opening];
       }
-      std::erase_if(modes, [](const OpenRows& m) { return m.rows.empty(); });
     }
   }
   return out;

@@ -19,7 +19,7 @@ struct OpenedEvidence {
 /// whatever mends that one shape would look like a cause. Those that gain at the
 /// scales as they are are opened together, then the scales are found anew.
 /// @param system  Sigma_0 and its prior become those with the opened modes
-[[nodiscard]] OpenedEvidence scored_with_openings(const Inference& plain, LawSystem& system, const LawHypothesis& hypothesis,
+[[nodiscard]] OpenedEvidence scored_with_openings(const Inference& plain, FitSystem& system, const LawHypothesis& hypothesis,
                                                   const Eigen::VectorXd& start);
 
 /// A map in which the model may miss the rows of some measured modes by as much as those of a mode that it does not have.

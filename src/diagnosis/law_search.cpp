@@ -117,7 +117,7 @@ void weigh_fit(const LawSetting& setting, const LawSearch& search, LawAccount& a
   std::vector<Contrast> contrasts = setting.contrasts;  // those of the set alone: the others' classes are absent
   for (std::size_t c = 0; c < contrasts.size(); ++c)
     if (!acts_in_contrast(search, account, static_cast<int>(c))) contrasts[c].weight.setZero();
-  auto system = std::make_shared<LawSystem>(law_system(setting.plain, with, contrasts, account.members.size()));
+  auto system = std::make_shared<FitSystem>(law_system(setting.plain, with, contrasts, account.members.size()));
   if (!can_be_weighed(*system)) return;  // costs the entry, not the results
   const Prediction without = setting.plain.map().predict(with.base, search.base.causes, false);
   const double effect = without.valid ? effect_on(setting.plain, change_between(without, with.all), acts) : account.effect;
@@ -393,13 +393,13 @@ const LawAccount& account_to_take(const std::vector<const LawAccount*>& possible
 namespace {
 
 /// No cause, and at most one contrast's class, at a fit without causes of the catalogue.
-LawAccount weigh_without(const LawSetting& setting, LawSystem system, const std::vector<ActiveClass>& contrast,
+LawAccount weigh_without(const LawSetting& setting, FitSystem system, const std::vector<ActiveClass>& contrast,
                          const VectorXd& tau, const Fit& with) {
   system.signatures.resize(system.residual.size(), 0);
   LawAccount account;
   account.hypothesis = {system.residual, VectorXd::Zero(1), system.signatures, {}, {}, lasting_classes(system)};
   account.hypothesis.active.insert(account.hypothesis.active.end(), contrast.begin(), contrast.end());
-  auto held = std::make_shared<LawSystem>(std::move(system));
+  auto held = std::make_shared<FitSystem>(std::move(system));
   OpenedEvidence opened = scored_with_openings(setting.plain, *held, account.hypothesis, tau);
   account.evidence = std::move(opened.evidence);
   account.opened = std::move(opened.opened);
@@ -414,13 +414,13 @@ LawAccount weigh_without(const LawSetting& setting, LawSystem system, const std:
 /// of their own opened and under their own scales. The better one of two starts counts.
 void weigh_nothing(const LawSetting& setting, LawSearch& search, const Fit& start) {
   if (!start.made()) return;
-  const LawSystem at_start = law_system(setting.plain, start, setting.contrasts);
+  const FitSystem at_start = law_system(setting.plain, start, setting.contrasts);
   if (!can_be_weighed(at_start)) return;
   const auto weigh = [&](const std::vector<ActiveClass>& contrast, const VectorXd& tau) {
     LawAccount account = weigh_without(setting, at_start, contrast, tau, start);
     if (!account.scored) return account;
     settle(setting, account, [&](const LawAccount& before, const Fit& with) {
-      LawSystem system = law_system(setting.plain, with, setting.contrasts);
+      FitSystem system = law_system(setting.plain, with, setting.contrasts);
       if (!can_be_weighed(system)) return LawAccount{};
       return weigh_without(setting, std::move(system), contrast, before.evidence.tau, with);
     });

@@ -22,14 +22,6 @@ constexpr double kKink = 0.25;       // of a shape's norm, per unit of the form 
 constexpr double kRotation = 0.012;  // radians of a rotation times the relative gap …
 constexpr double kCovered = 0.06, kFarthest = 0.12;  // … for gaps between these
 
-/// 1 / (w_i² - w_j²), the relative gap held at kLeastGap.
-double turning(double wi, double wj) {
-  const double mean = std::sqrt(wi * wj);
-  if (!(mean > 0.0)) return 0.0;
-  const double gap = (wi - wj) / mean;
-  return 1.0 / (std::copysign(std::max(std::abs(gap), kLeastGap), gap) * (wi + wj) * mean);
-}
-
 constexpr double kAtRest = 1e-6;  // of the largest motion of the channels in any mode: less is rounding
 
 /// Factor from the mass-normalised shape to what the rows hold; 0 for a mode that moves none of the channels.
@@ -56,6 +48,13 @@ MatrixXd taken_up(const ModelModes& modes, Index own) {
 }
 
 }  // namespace
+
+double turning(double wi, double wj) {
+  const double mean = std::sqrt(wi * wj);
+  if (!(mean > 0.0)) return 0.0;
+  const double gap = (wi - wj) / mean;
+  return 1.0 / (std::copysign(std::max(std::abs(gap), kLeastGap), gap) * (wi + wj) * mean);
+}
 
 FormColumns form_columns(const std::vector<ModelModes>& structures, const std::vector<PairedMode>& paired,
                          const VectorXd& predicted) {

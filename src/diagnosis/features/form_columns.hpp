@@ -17,6 +17,9 @@ struct ModelModes {
   Eigen::MatrixXd along;        ///< C = Phi' M Psi (n_modes of the base × n_modes): what of the base's modes they hold
 };
 
+/// 1 / (w_i² - w_j²), the relative gap held at 5 %: nearer modes turn no further into each other.
+[[nodiscard]] double turning(double wi, double wj);
+
 /// A measured mode of one condition with the model modes that it is paired with.
 struct PairedMode {
   int model_mode = -1;  ///< of the base's modes the one that it is most like, -1 for none

@@ -80,8 +80,11 @@ ParameterLaw<CompactMatrix> law_of_all(const fe::ParametricSystem& system, const
   return law;
 }
 
-/// Picks `count` of the points so that they lie far from each other, the given ones first (farthest-point selection).
-std::vector<int> spread(const std::vector<Eigen::Vector3d>& points, std::vector<int> chosen, int count) {
+constexpr int kMostPlaces = 200;  // of a kind: the time of a search grows with them
+
+/// Picks `count` of the points so that they lie far from each other, the given ones first (farthest-point selection), and more
+/// until every point is within half a spacing of one.
+std::vector<int> spread(const std::vector<Eigen::Vector3d>& points, std::vector<int> chosen, int count, double spacing_m) {
   const auto n = static_cast<int>(points.size());
   if (n <= count) {
     std::vector<int> all(points.size());
@@ -91,13 +94,13 @@ std::vector<int> spread(const std::vector<Eigen::Vector3d>& points, std::vector<
   if (chosen.empty()) chosen.push_back(0);
   std::vector<double> distance(points.size(), std::numeric_limits<double>::infinity());
   std::size_t done = 0;
-  while (static_cast<int>(chosen.size()) < count || done < chosen.size()) {
+  while (true) {
     for (; done < chosen.size(); ++done)
       for (std::size_t i = 0; i < points.size(); ++i)
         distance[i] = std::min(distance[i], (points[i] - points[static_cast<std::size_t>(chosen[done])]).norm());
-    if (static_cast<int>(chosen.size()) >= count) break;
     const auto far = std::max_element(distance.begin(), distance.end());
-    if (!(*far > 0.0)) break;
+    const bool is_wide = spacing_m > 0.0 && *far > 0.5 * spacing_m && static_cast<int>(chosen.size()) < kMostPlaces;
+    if (!(*far > 0.0) || (static_cast<int>(chosen.size()) >= count && !is_wide)) break;
     chosen.push_back(static_cast<int>(far - distance.begin()));
   }
   return chosen;
@@ -213,7 +216,7 @@ Places find_places(const Structure& structure, const PlaceOptions& options) {
   } else {
     ElementPlaces elements(structure);
     if (options.zone_centres.empty())
-      elements.add_zones(spread(elements.centroids(), {}, options.max_zones), places);
+      elements.add_zones(spread(elements.centroids(), {}, options.max_zones, options.zone_spacing_m), places);
     else
       elements.add_zones(nearest_of(elements.centroids(), options.zone_centres), places, options.zone_centres);
     elements.add_stays(places);
@@ -222,9 +225,9 @@ Places find_places(const Structure& structure, const PlaceOptions& options) {
     elements.add_groups(places);
     elements.add_support_moves(places);
     elements.add_moves(options.moves, places);
-    elements.add_nodes(options.node_positions.empty()
-                           ? spread(elements.node_positions(), elements.measured_nodes(), options.max_nodes)
-                           : nearest_of(elements.node_positions(), options.node_positions),
+    elements.add_nodes(options.node_positions.empty() ? spread(elements.node_positions(), elements.measured_nodes(),
+                                                               options.max_nodes, options.node_spacing_m)
+                                                      : nearest_of(elements.node_positions(), options.node_positions),
                        places);
     elements.fill_global(global);
     Place stays{"global", kNowhere, {}, {}, {}, {}, {}};

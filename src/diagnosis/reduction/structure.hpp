@@ -50,8 +50,8 @@ struct Place {
 
 /// The places of a structure by set: elements, nodes, stays, dampers, damper_types ("dampers:C1,C2", all of a make), supports,
 /// foundations, groups, global. An element stands for
-/// its neighbourhood where there are more than `max_zones` of them: the structure is cut into that many zones round elements
-/// that lie far from each other, so that every element belongs to the nearest one.
+/// its neighbourhood where there are more than `max_zones` of them and they lie closer than `zone_spacing_m`: the structure is
+/// cut into that many zones round elements that lie far from each other, so that every element belongs to the nearest one.
 struct Places {
   std::map<std::string, std::vector<Place>> sets;
   double total_mass_kg = 0.0;
@@ -70,6 +70,7 @@ struct DamperMove {
 struct PlaceOptions {
   int max_zones = 24;                                         ///< of elements
   int max_nodes = 24;                                         ///< those of channels first, then nodes far from each other
+  double zone_spacing_m = 0.0, node_spacing_m = 0.0;          ///< more of them until none are farther apart; 0: never more
   std::vector<DamperMove> moves;                              ///< set "damper_moves": "dampers:C1,C2@foot_57m"
   std::vector<Eigen::Vector3d> zone_centres, node_positions;  ///< where they are laid down: zones and nodes of another mesh
 };

@@ -259,12 +259,22 @@ DiagnosisInputs prepare_diagnosis(const DiagnosisConfig& config, const Diagnosis
   if (!loaded.state.status.converged) throw InputError({loaded.source, 0, ""}, loaded.state.status.message, "");
   inputs.load_tests = {loaded.source, files.folder / "channels.csv"};
   inputs.model = diagnosis::prepare_model(loaded, files.channels, config.sensor_tolerance_m);
-  diagnosis::PlaceOptions place_options{static_cast<int>(config.zones), static_cast<int>(config.nodes), {}, {}, {}};
-  place_options.moves = files.moves;
   inputs.structure = inputs.model->structure();
   const diagnosis::BasisModes basis =
       diagnosis::modes_of_basis(inputs.structure, inputs.features, static_cast<int>(config.modes));
   refuse_endless_basis(basis, loaded, inputs.features, context);
+  diagnosis::PlaceOptions place_options;
+  place_options.moves = files.moves;
+  if (config.zones > 0)
+    place_options.max_zones = static_cast<int>(config.zones);
+  else
+    place_options.zone_spacing_m = basis.eighth_of_wave_m;
+  if (config.nodes > 0)
+    place_options.max_nodes = static_cast<int>(config.nodes);
+  else
+    place_options.node_spacing_m = basis.eighth_of_wave_m;
+  if (const double spacing = std::max(place_options.zone_spacing_m, place_options.node_spacing_m); spacing > 0.0)
+    context.say(fmt::format("places every {:.2g} m, an eighth of the shortest wave of the measured modes", spacing));
   inputs.basis_modes = basis.modes;
   reduce(place_options, basis, inputs);
   diagnosis::refuse_slack_stays(inputs.features, inputs.places, files.folder);
@@ -431,8 +441,10 @@ io::FieldTable DiagnosisConfig::fields() {
                "largest number of causes in one explanation. 0: causes are told and not put into the model")
       .integer("modes", modes, {4, 200},
                "least number of modes in the reduced basis; it has more where the highest measured frequency asks for them")
-      .integer("zones", zones, {2, 10000}, "zones that the elements are gathered in")
-      .integer("nodes", nodes, {2, 10000}, "nodes at which masses, oscillators and ties are looked for")
+      .integer("zones", zones, {0, 10000},
+               "zones that the elements are gathered in; 0: eight a wavelength of the highest measured mode, at least 24")
+      .integer("nodes", nodes, {0, 10000},
+               "nodes at which masses, oscillators and ties are looked for; 0: eight a wavelength, at least 24")
       .number("sensor_tolerance", sensor_tolerance_m, "m", io::positive(),
               "farthest that a sensor may lie from the node that stands for it")
       .choice("stays", stays, {"auto", "as_modelled"},
