@@ -87,28 +87,18 @@ class ByLaw {
     part_model_errors();
     for (const LawAccount& account : search_.accounts)
       if (account.members.size() == 1) out_.ranking.push_back(as_scored(search_, account, setting_.informed));
-    leave_out_refused_sets();
-    out_.probability = 1.0 - judgement_.nothing;
-    out_.log_odds = judgement_.log_odds;
-    out_.threshold = std::log(kSetProbability / (1.0 - kSetProbability));
-    out_.verdict = judgement_.verdict;
-    winner_ = search_.nothing.evidence;
-    opened_ = search_.nothing.opened;
-    reason_ = reason_of_verdict();
-    refuse_nil();
-    guard();
-    if ((out_.verdict == Verdict::named || out_.verdict == Verdict::ambiguous) && options_.most_causes == 0) {
-      out_.verdict = Verdict::unknown;
-      reason_ = "a cause stands out, and most_causes allows none";
-    }
-    if (out_.verdict == Verdict::named || out_.verdict == Verdict::ambiguous) accept();
-    tell_model_errors();
-    out_.form->frequency = estimate_of(winner_, kFrequencies);
-    out_.form->shape = estimate_of(winner_, kShapes);
-    out_.form->classes = classes_in_words(winner_, setting_.contrasts);
-    if (out_.form->frequency.level > kFarOff)
-      out_.form->warnings.push_back(fmt::format("the model is {:.0f} % off in frequency: too far to see small causes",
-                                                100.0 * out_.form->frequency.level));
+    reach_verdict();
+  }
+
+  /// Whether the last fit finds that a member of the set in the model has no size of its own: the rest is judged anew.
+  [[nodiscard]] bool leaves_out_taken_set() {
+    if (out_.effects.size() < 2 || objection().empty()) return false;
+    leave_out(taken_);
+    out_.effects.clear();
+    causes_.clear();
+    out_.form->warnings.clear();
+    reach_verdict();
+    return true;
   }
   [[nodiscard]] const LawSearch& search() const { return search_; }
   [[nodiscard]] const std::vector<Cause>& causes() const { return causes_; }
@@ -119,17 +109,57 @@ class ByLaw {
 
   /// What the last fit says of the sizes may refuse the name.
   void refuse_sizes() {
-    if (out_.verdict != Verdict::named && out_.verdict != Verdict::ambiguous) return;
-    for (const Effect& effect : out_.effects)
-      if (const std::string objection = objection_to_size(effect.cause, effect.parameters); !objection.empty()) {
-        out_.verdict = Verdict::unknown;
-        reason_ = objection;
-      }
+    const std::string found = objection();
+    if (found.empty()) return;
+    out_.verdict = Verdict::unknown;
+    reason_ = found;
   }
 
  private:
+  [[nodiscard]] std::string objection() const {
+    for (const Effect& effect : out_.effects)
+      if (std::string found = objection_to_size(effect.cause, effect.parameters); !found.empty()) return found;
+    return {};
+  }
+
+  void leave_out(const std::vector<int>& members) {
+    std::erase_if(search_.accounts, [&](const LawAccount& account) { return account.members == members; });
+  }
+
+  void reach_verdict() {
+    while (!judge_the_rest()) {
+    }
+    tell_model_errors();
+    out_.form->frequency = estimate_of(winner_, kFrequencies);
+    out_.form->shape = estimate_of(winner_, kShapes);
+    out_.form->classes = classes_in_words(winner_, setting_.contrasts);
+    if (out_.form->frequency.level > kFarOff)
+      out_.form->warnings.push_back(fmt::format("the model is {:.0f} % off in frequency: too far to see small causes",
+                                                100.0 * out_.form->frequency.level));
+  }
+
   [[nodiscard]] bool is_model_error(int member) const {
     return diagnosis::is_model_error(setting_, search_.entries[static_cast<std::size_t>(member)]);
+  }
+
+  /// Verdict of the accounts that are left, and what is put into the model. False where the set that was taken has a member
+  /// without a size of its own once it is in the model: it is left out.
+  [[nodiscard]] bool judge_the_rest() {
+    leave_out_refused_sets();
+    out_.probability = 1.0 - judgement_.nothing;
+    out_.log_odds = judgement_.log_odds;
+    out_.threshold = std::log(kSetProbability / (1.0 - kSetProbability));
+    out_.verdict = judgement_.verdict;
+    winner_ = search_.nothing.evidence;
+    opened_ = search_.nothing.opened;
+    reason_ = reason_of_verdict();
+    refuse_nil();
+    guard();
+    if (out_.verdict != Verdict::named && out_.verdict != Verdict::ambiguous) return true;
+    if (options_.most_causes > 0) return accept();
+    out_.verdict = Verdict::unknown;
+    reason_ = "a cause stands out, and most_causes allows none";
+    return true;
   }
 
   /// What acts in all states alike is no change: it competes as an error of the model.
@@ -162,6 +192,12 @@ class ByLaw {
     judgement_ = judge(weight_of_nothing(), answers);
   }
 
+  [[nodiscard]] bool has_objection(const Fit& fit) const {
+    for (std::size_t c = 0; c < fit.causes.size(); ++c)
+      if (!objection_to_size(fit.causes[c], effect_parameters(setting_.informed, fit, c)).empty()) return true;
+    return false;
+  }
+
   /// A set of causes of which one has no size of its own, or predicts nothing that the others do not, is none: the next ones
   /// are judged without it. One cause alone that is refused makes the verdict `unknown` (refuse_sizes).
   void leave_out_refused_sets() {
@@ -170,9 +206,7 @@ class ByLaw {
       if (search_.accounts.empty() || judgement_.verdict == Verdict::none) return false;
       const LawAccount& leader = search_.accounts.front();
       if (leader.members.size() < 2 || !leader.refined()) return false;
-      for (std::size_t c = 0; c < leader.with.causes.size(); ++c)
-        if (!objection_to_size(leader.with.causes[c], effect_parameters(setting_.informed, leader.with, c)).empty())
-          return true;
+      if (has_objection(leader.with)) return true;
       return !each_cause_predicts(setting_, search_, leader, options_.bootstrap, seed_);
     };
     while (refused()) {
@@ -215,8 +249,8 @@ class ByLaw {
   }
 
   /// Puts the leading set into the answer: one effect for each of its causes, with the other causes that may stand in its
-  /// place.
-  void accept() {
+  /// place. False if the leading set is refused and was left out.
+  [[nodiscard]] bool accept() {
     std::vector<const LawAccount*> set;
     std::vector<double> probability;
     double something_else = 0.0;
@@ -230,7 +264,11 @@ class ByLaw {
       }
     }
     const LawAccount& leader = account_to_take(set);
-    if (!put_into_model(leader)) return;
+    if (!put_into_model(leader)) return true;
+    if (leader.members.size() > 1 && has_objection(fitted_)) {
+      leave_out(taken_);
+      return false;
+    }
     std::vector<Slot> slots;
     for (const int m : leader.members)
       if (!is_model_error(m)) slots.push_back({{m}, {0.0}});
@@ -244,6 +282,7 @@ class ByLaw {
     if (std::all_of(slots.begin(), slots.end(), [](const Slot& slot) { return slot.members.size() == 1; }) &&
         !judgement_.something_else_in_set)
       out_.verdict = Verdict::named;
+    return true;
   }
 
   /// Errors of the model in all states, beside a change or without one.
@@ -280,6 +319,7 @@ class ByLaw {
     winner_ = leader.evidence;
     opened_ = leader.opened;
     causes_ = with.causes;
+    taken_ = leader.members;
     fitted_ = std::move(with);
     return true;
   }
@@ -348,6 +388,7 @@ class ByLaw {
   LawEvidence winner_;
   std::vector<int> opened_;
   std::vector<Cause> causes_;
+  std::vector<int> taken_;  ///< members of the account in the model
   Fit fitted_;
   std::string reason_;
 };
@@ -441,7 +482,8 @@ Diagnosis diagnose(const Inference& whole, const DiagnoseOptions& options, std::
   out.form.emplace();
   ByLaw engine(setting, options, seed, out);
   engine.run();
-  finish_by_law(plain, engine, options, seed, out);
+  do finish_by_law(plain, engine, options, seed, out);
+  while (engine.leaves_out_taken_set());
   engine.refuse_sizes();
   add_open_modes(map, engine, out);
   out.message = message_by_law(out, engine);

@@ -8,6 +8,7 @@
 
 #include "core/error.hpp"
 #include "core/parallel.hpp"
+#include "diagnosis/law_fits.hpp"
 #include "diagnosis/mode_blocks.hpp"
 #include "linalg/dense.hpp"
 

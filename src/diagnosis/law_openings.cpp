@@ -19,8 +19,6 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-constexpr double kOwn = 0.01;  // of a shape, and of ln f: what each record has of its own of a mode that the model lacks
-
 /// What a mode may be that is none of the model's: a covariance of its rows.
 struct Opening {
   MatrixXd covariance;
@@ -72,9 +70,9 @@ MatrixXd of_a_lacking_mode(const FeatureMap& map, const FitSystem& system, const
     const double sign = values.dot(reference(mode.real_channels)) < 0.0 ? -1.0 : 1.0, norm = here.norm();
     if (norm > 0.0) columns(mode.real_rows, Eigen::seq(0, Eigen::last - 1)) = sign * values.norm() / norm * here;
     reference(mode.real_channels) += sign * values;
-    own(mode.real_rows).setConstant(kOwn * kOwn);
+    own(mode.real_rows).setConstant(kUnitOfClasses * kUnitOfClasses);
     if (mode.frequency < 0) continue;
-    own[mode.frequency] = kOwn * kOwn;
+    own[mode.frequency] = kUnitOfClasses * kUnitOfClasses;
     columns(mode.frequency, columns.cols() - 1) = std::sqrt(variance_of_open(map, mode)[mode.frequency]);
   }
   std::vector<int> rows;
@@ -107,8 +105,9 @@ std::vector<OpenMode> modes_that_may_open(const Inference& plain, const FitSyste
     open.modes.push_back(static_cast<int>(m));
     open.rows.insert(open.rows.end(), rows.begin(), rows.end());
   }
-  // Between states the model lacks the same modes: what differs is a change, which causes are to explain.
-  const bool may_lack = states_of(map.features()).size() == 1 && !system.modes.structures.empty();
+  // Where conditions differ by more than chance, a shape that changes is for causes to explain.
+  const bool may_lack =
+      states_of(map.features()).size() == 1 && contrasts_of(map.features()).empty() && !system.modes.structures.empty();
   std::vector<OpenMode> out;
   for (auto& [name, open] : by_name) {
     VectorXd spurious(std::ssize(open.rows)), all = VectorXd::Zero(map.values().size());

@@ -76,11 +76,6 @@ struct LawSearch {
 /// no part of the answer. One that the screen alone has weighed has no fit, and comes last.
 [[nodiscard]] const LawAccount& account_to_take(const std::vector<const LawAccount*>& possible);
 
-/// A fit of a refined account under its own scales, what it holds for none of the model's modes left open, from where the law
-/// says that the unknowns are. The evidence is linear about a fit: far from it, it promises what the model does not hold.
-/// @param aside  training rows that count for nothing
-[[nodiscard]] Fit fit_by_own_scales(const LawSetting& setting, const LawAccount& account, const std::vector<int>& aside = {});
-
 [[nodiscard]] LawSearch search_by_law(const LawSetting& setting, const Fit& base);
 
 /// Whether the question is what changed between states, and an entry acts in all of them alike.
