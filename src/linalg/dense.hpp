@@ -22,7 +22,7 @@ struct LeadingEigenpairs {
   Eigen::MatrixXd vectors;  ///< (size × n) orthonormal
 };
 /// @param symmetric (size × size), its lower triangle is read @param n  1 … size
-/// Reference: LAPACK's DSYEVR (relatively robust representations).
+/// Reference: Gu and Eisenstat (1995), SIAM J. Matrix Anal. Appl. 16, 172-191 (divide and conquer).
 [[nodiscard]] LeadingEigenpairs leading_eigenpairs(Eigen::MatrixXd symmetric, Eigen::Index n);
 
 /// The eigenpairs whose value is above `least`; there may be none. @param symmetric (size × size), its lower triangle is read
