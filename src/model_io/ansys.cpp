@@ -2,8 +2,10 @@
 
 #include <fmt/format.h>
 
+#include <array>
 #include <map>
 
+#include "core/lists.hpp"
 #include "io/text_lines.hpp"
 #include "model_io/ansys_ignored.hpp"
 #include "model_io/ansys_mesh.hpp"
@@ -42,65 +44,57 @@ void refuse_file(Parts& /*parts*/, const Command& command) {
 }
 
 using Handler = void (*)(Parts&, const Command&);
+using Handlers = std::map<std::string, Handler>;
 
 /// Commands that change the structure.
-const std::map<std::string, Handler>& structural() {
-  static const std::map<std::string, Handler> known = {{"NBLO", read_node_block},
-                                                       {"EBLO", read_element_block},
-                                                       {"ETBL", read_type_block},
-                                                       {"RLBL", read_real_block},
-                                                       {"SECB", read_section_block},
-                                                       {"N", read_node},
-                                                       {"E", read_element},
-                                                       {"EN", read_numbered_element},
-                                                       {"EMOR", read_more_nodes},
-                                                       {"FILL", fill_nodes},
-                                                       {"NGEN", generate_nodes},
-                                                       {"EGEN", generate_elements},
-                                                       {"ET", read_type},
-                                                       {"KEYO", read_option},
-                                                       {"R", read_reals},
-                                                       {"RMOR", read_more_reals},
-                                                       {"RMOD", read_changed_reals},
-                                                       {"MP", read_property},
-                                                       {"MPDA", read_property_data},
-                                                       {"SECT", read_section_type},
-                                                       {"SECD", read_section_data},
-                                                       {"SECO", read_section_offset},
-                                                       {"SECC", read_section_control},
-                                                       {"D", read_support},
-                                                       {"DDEL", read_released_support},
-                                                       {"CP", read_couple},
-                                                       {"CERI", read_rigid_region},
-                                                       {"LUMP", read_lumped},
-                                                       {"TB", refuse_table},
-                                                       {"CE", read_equation},
-                                                       {"/INPU", refuse_file},
-                                                       {"*USE", refuse_file},
-                                                       {"CDRE", refuse_file},
-                                                       {"RESU", refuse_file}};
+const Handlers& structural() {
+  static const Handlers known = by_word<Handler>({{read_node_block, {"NBLO"}},
+                                                  {read_element_block, {"EBLO"}},
+                                                  {read_type_block, {"ETBL"}},
+                                                  {read_real_block, {"RLBL"}},
+                                                  {read_section_block, {"SECB"}},
+                                                  {read_node, {"N"}},
+                                                  {read_element, {"E"}},
+                                                  {read_numbered_element, {"EN"}},
+                                                  {read_more_nodes, {"EMOR"}},
+                                                  {fill_nodes, {"FILL"}},
+                                                  {generate_nodes, {"NGEN"}},
+                                                  {generate_elements, {"EGEN"}},
+                                                  {read_type, {"ET"}},
+                                                  {read_option, {"KEYO"}},
+                                                  {read_reals, {"R"}},
+                                                  {read_more_reals, {"RMOR"}},
+                                                  {read_changed_reals, {"RMOD"}},
+                                                  {read_property, {"MP"}},
+                                                  {read_property_data, {"MPDA"}},
+                                                  {read_section_type, {"SECT"}},
+                                                  {read_section_data, {"SECD"}},
+                                                  {read_section_offset, {"SECO"}},
+                                                  {read_section_control, {"SECC"}},
+                                                  {read_support, {"D"}},
+                                                  {read_released_support, {"DDEL"}},
+                                                  {read_couple, {"CP"}},
+                                                  {read_rigid_region, {"CERI"}},
+                                                  {read_lumped, {"LUMP"}},
+                                                  {refuse_table, {"TB"}},
+                                                  {read_equation, {"CE"}},
+                                                  {refuse_file, {"/INPU", "*USE", "CDRE", "RESU"}}});
   return known;
 }
 
 /// Commands that say what is selected, active or called by a name.
-const std::map<std::string, Handler>& others() {
-  static const std::map<std::string, Handler> known = {{"CMBL", read_component_block},
-                                                       {"TYPE", read_attribute},
-                                                       {"MAT", read_attribute},
-                                                       {"REAL", read_attribute},
-                                                       {"SECN", read_attribute},
-                                                       {"CSYS", read_axes},
-                                                       {"LOCA", read_axes},
-                                                       {"CLOC", read_axes},
-                                                       {"CS", read_axes},
-                                                       {"CM", read_component},
-                                                       {"CMSE", select_component},
-                                                       {"NSEL", select_nodes},
-                                                       {"ESEL", select_elements},
-                                                       {"NSLE", select_nodes_of_elements},
-                                                       {"ALLS", select_all},
-                                                       {"/TITL", read_title},
-                                                       {"/UNIT", read_units}};
+const Handlers& others() {
+  static const Handlers known = by_word<Handler>({{read_component_block, {"CMBL"}},
+                                                  {read_attribute, {"TYPE", "MAT", "REAL", "SECN"}},
+                                                  {read_axes, {"CSYS", "LOCA", "CLOC", "CS"}},
+                                                  {read_component, {"CM"}},
+                                                  {select_component, {"CMSE"}},
+                                                  {select_nodes, {"NSEL"}},
+                                                  {select_elements, {"ESEL"}},
+                                                  {select_nodes_of_elements, {"NSLE"}},
+                                                  {select_all, {"ALLS"}},
+                                                  {read_title, {"/TITL"}},
+                                                  {read_units, {"/UNIT"}}});
   return known;
 }
 
@@ -112,16 +106,11 @@ void set_parameter(Parts& parts, const std::string& name, const std::string& val
 
 /// Commands of the parameter language. @return true if it was one that needs no more
 bool read_parameter(Parts& parts, const Command& command) {
-  const auto field = [&](std::size_t i) { return command.blank(i) ? std::string() : command.fields[i]; };
-  if (command.key == "=" || command.key == "*SET") {
-    set_parameter(parts, field(0), field(1));
-  } else if (command.key == "*GET") {
-    parts.parameters.erase(upper_case(field(0)));
-  } else {
-    // Arrays: no field can use them, since evaluate() knows none.
-    return command.key == "*DIM" || command.key == "*DEL" || command.key == "*VFIL";
-  }
-  return true;
+  const bool sets = command.key == "=" || command.key == "*SET", gets = command.key == "*GET";
+  if (sets) set_parameter(parts, command.text(0), command.text(1));
+  if (gets) parts.parameters.erase(upper_case(command.text(0)));
+  // Arrays: no field can use them, since evaluate() knows none.
+  return sets || gets || command.key == "*DIM" || command.key == "*DEL" || command.key == "*VFIL";
 }
 
 bool says_nothing(const Command& command) { return ignored(command.key) != nullptr || command.key == "/EOF"; }
@@ -203,16 +192,12 @@ void read_commands(Parts& parts) {
 
 bool is_ansys_deck(const std::filesystem::path& file) {
   constexpr int most_lines = 5000;  // of comments and settings before the mesh
+  constexpr std::array<const char*, 4> meshes = {"NBLO", "EBLO", "ETBL", "/PREP"};
   io::TextLines stream(file, io::longest_text);
   std::string text;
-  for (int i = 0; i < most_lines && stream.next(text); ++i) {
-    for (const ansys::Command& command : ansys::split_commands(text, &file, i + 1)) {
-      const std::string& key = command.key;
-      if (key == "NBLO" || key == "EBLO" || key == "ETBL" || key == "/PREP" ||
-          (key == "ET" && text.find(',') != std::string::npos))
-        return true;
-    }
-  }
+  for (int i = 0; i < most_lines && stream.next(text); ++i)
+    for (const ansys::Command& command : ansys::split_commands(text, &file, i + 1))
+      if (contains(meshes, command.key) || (command.key == "ET" && text.find(',') != std::string::npos)) return true;
   return false;
 }
 

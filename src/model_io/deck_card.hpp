@@ -2,9 +2,11 @@
 
 #include <Eigen/Core>
 #include <filesystem>
+#include <initializer_list>
 #include <map>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "io/letters.hpp"
@@ -20,6 +22,15 @@ using io::upper_case;  ///< names are compared in upper case
 [[nodiscard]] bool is_whole_number(const std::string& field);
 /// `text` cut at each `separator`, the parts trimmed.
 [[nodiscard]] std::vector<std::string> split_at(const std::string& text, char separator);
+
+/// A table of words that stand for the same, a row each, as a map by word.
+template <class What>
+[[nodiscard]] std::map<std::string, What> by_word(std::initializer_list<std::pair<What, std::vector<const char*>>> rows) {
+  std::map<std::string, What> by;
+  for (const auto& [what, words] : rows)
+    for (const char* word : words) by.emplace(word, what);
+  return by;
+}
 
 /// Where something of a deck stands.
 struct DeckPlace {

@@ -3,9 +3,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <map>
 
 #include "core/error.hpp"
+#include "core/lists.hpp"
 #include "model_io/inp_attachments.hpp"
 #include "model_io/inp_mesh.hpp"
 #include "model_io/inp_parts.hpp"
@@ -22,31 +24,26 @@ using Reader = void (*)(InpParts&, const InpCard&);
 /// Cards in the order in which they must be understood: what defines, then what refers to it.
 const std::vector<std::map<std::string, Reader>>& passes() {
   static const std::vector<std::map<std::string, Reader>> readers = {
-      {{"NODE", read_inp_nodes}},
-      {{"ELEMENT", read_inp_elements},
-       {"MATERIAL", read_inp_material},
-       {"ELASTIC", read_inp_elastic},
-       {"DENSITY", read_inp_density},
-       {"EXPANSION", read_inp_expansion},
-       {"ORIENTATION", read_inp_orientation}},
-      {{"NSET", read_inp_set}, {"ELSET", read_inp_set}},
-      {{"SURFACE", read_inp_surface}, {"TRANSFORM", read_inp_transform}},
-      {{"EQUATION", read_inp_equation},
-       {"BEAM SECTION", assign_inp_section},
-       {"BEAM GENERAL SECTION", assign_inp_section},
-       {"SHELL SECTION", assign_inp_section},
-       {"SHELL GENERAL SECTION", assign_inp_section},
-       {"USER SECTION", assign_inp_section},
-       {"SOLID SECTION", assign_inp_section},
-       {"SPRING", attach_inp_spring},
-       {"DASHPOT", attach_inp_spring},
-       {"MASS", attach_inp_mass},
-       {"ROTARY INERTIA", attach_inp_mass},
-       {"RIGID BODY", attach_inp_rigid_body},
-       {"MPC", attach_inp_mpc},
-       {"JOINT", attach_inp_joint},
-       {"COUPLING", attach_inp_coupling},
-       {"KINEMATIC COUPLING", attach_inp_kinematic_coupling}}};
+      by_word<Reader>({{read_inp_nodes, {"NODE"}}}),
+      by_word<Reader>({{read_inp_elements, {"ELEMENT"}},
+                       {read_inp_material, {"MATERIAL"}},
+                       {read_inp_elastic, {"ELASTIC"}},
+                       {read_inp_density, {"DENSITY"}},
+                       {read_inp_expansion, {"EXPANSION"}},
+                       {read_inp_orientation, {"ORIENTATION"}}}),
+      by_word<Reader>({{read_inp_set, {"NSET", "ELSET"}}}),
+      by_word<Reader>({{read_inp_surface, {"SURFACE"}}, {read_inp_transform, {"TRANSFORM"}}}),
+      by_word<Reader>({{read_inp_equation, {"EQUATION"}},
+                       {assign_inp_section,
+                        {"BEAM SECTION", "BEAM GENERAL SECTION", "SHELL SECTION", "SHELL GENERAL SECTION", "USER SECTION",
+                         "SOLID SECTION"}},
+                       {attach_inp_spring, {"SPRING", "DASHPOT"}},
+                       {attach_inp_mass, {"MASS", "ROTARY INERTIA"}},
+                       {attach_inp_rigid_body, {"RIGID BODY"}},
+                       {attach_inp_mpc, {"MPC"}},
+                       {attach_inp_joint, {"JOINT"}},
+                       {attach_inp_coupling, {"COUPLING"}},
+                       {attach_inp_kinematic_coupling, {"KINEMATIC COUPLING"}}})};
   return readers;
 }
 
@@ -61,13 +58,8 @@ const std::vector<std::string>& silent_cards() {
 }
 
 /// Data of other physics: no part of the stiffness and mass of a model, but worth a word.
-const std::vector<std::string>& noted_cards() {
-  static const std::vector<std::string> cards = {"DAMPING", "CONDUCTIVITY", "SPECIFIC HEAT", "PHYSICAL CONSTANTS"};
-  return cards;
-}
-
-bool is_in(const std::vector<std::string>& list, const std::string& name) {
-  return std::find(list.begin(), list.end(), name) != list.end();
+bool is_noted(const std::string& card) {
+  return contains(std::array{"DAMPING", "CONDUCTIVITY", "SPECIFIC HEAT", "PHYSICAL CONSTANTS"}, card);
 }
 
 void refuse_unknown(const InpPlan& plan) {
@@ -78,16 +70,13 @@ void refuse_unknown(const InpPlan& plan) {
   std::string above;
   for (const InpReading& reading : plan.readings) {
     const InpCard& card = *reading.card;
-    if (card.keyword == "TRANSVERSE SHEAR STIFFNESS" && above == "BEAM GENERAL SECTION") {
-      // read together with its section
-    } else if ((card.keyword == "KINEMATIC" || card.keyword == "DISTRIBUTING") && above == "COUPLING") {
-      // read together with its coupling
-    } else if (card.keyword == "USER ELEMENT" && upper_case(card.get("TYPE")) == "US3") {
-      // announces the three-node shell US3, which *ELEMENT lists
-    } else if (!is_in(known, card.keyword) && !is_in(noted_cards(), card.keyword)) {
+    const bool with_above = (card.keyword == "TRANSVERSE SHEAR STIFFNESS" && above == "BEAM GENERAL SECTION") ||
+                            ((card.keyword == "KINEMATIC" || card.keyword == "DISTRIBUTING") && above == "COUPLING");
+    // US3 is a three-node shell, which *ELEMENT lists.
+    const bool announces_shell = card.keyword == "USER ELEMENT" && upper_case(card.get("TYPE")) == "US3";
+    if (!with_above && !announces_shell && !contains(known, card.keyword) && !is_noted(card.keyword))
       card.fail("unsupported card" + did_you_mean(card.keyword, known),
                 "leave it out if the model is meant without it; docs/my_model.md lists what is read");
-    }
     above = card.keyword;
   }
 }
@@ -103,7 +92,7 @@ void note_loads(InpParts& parts, const InpPlan& plan, const InpStage& stage) {
   }
   first.clear();
   for (const InpReading& reading : plan.readings)
-    if (is_in(noted_cards(), reading.card->keyword)) first.emplace(reading.card->keyword, reading.card->line);
+    if (is_noted(reading.card->keyword)) first.emplace(reading.card->keyword, reading.card->line);
   for (const auto& [keyword, line] : first)
     parts.notes.push_back(fmt::format("*{} (line {}) does not enter stiffness or mass and is left out", keyword, line));
 }
@@ -112,7 +101,7 @@ void note_loads(InpParts& parts, const InpPlan& plan, const InpStage& stage) {
 void attach_supports(InpParts& parts, const InpPlan& plan) {
   const std::vector<const InpCard*> in_force = boundaries_in_force(parts.file);
   for (const InpReading& reading : plan.readings) {
-    if (std::find(in_force.begin(), in_force.end(), reading.card) == in_force.end()) continue;
+    if (!contains(in_force, reading.card)) continue;
     parts.scope = reading.scope;
     attach_inp_boundary(parts, *reading.card);
   }

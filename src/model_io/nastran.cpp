@@ -4,11 +4,10 @@
 
 #include <algorithm>
 #include <array>
-#include <initializer_list>
 #include <map>
-#include <span>
 
 #include "core/error.hpp"
+#include "core/lists.hpp"
 #include "io/text_lines.hpp"
 #include "model_io/deck_model.hpp"
 #include "model_io/deck_units.hpp"
@@ -29,108 +28,76 @@ using Reader = void (*)(Parts&, const Card&);
 /// Cards in the order in which they must be understood: what others refer to, elements, what sits on them, rigid links.
 const std::vector<std::map<std::string, Reader>>& reading_passes() {
   static const std::vector<std::map<std::string, Reader>> passes = {
-      {{"GRID", index_card},   {"GRDSET", index_card}, {"CORD1R", index_card}, {"CORD1C", index_card}, {"CORD1S", index_card},
-       {"CORD2R", index_card}, {"CORD2C", index_card}, {"CORD2S", index_card}, {"MAT1", index_card},   {"PBAR", index_card},
-       {"PBARL", index_card},  {"PBEAM", index_card},  {"PBEAML", index_card}, {"PROD", index_card},   {"PSHELL", index_card},
-       {"PSOLID", index_card}, {"PELAS", index_card},  {"PBUSH", index_card},  {"PMASS", index_card},  {"SPOINT", index_card}},
-      {{"CBAR", read_member},
-       {"CBEAM", read_member},
-       {"CROD", read_rod},
-       {"CONROD", read_rod},
-       {"CQUAD4", read_shell},
-       {"CTRIA3", read_shell},
-       {"CQUAD8", read_shell},
-       {"CTRIA6", read_shell},
-       {"CHEXA", read_solid},
-       {"CTETRA", read_solid}},
-      {{"CELAS1", read_scalar_spring},
-       {"CELAS2", read_scalar_spring},
-       {"CBUSH", read_bush},
-       {"CONM1", read_mass},
-       {"CONM2", read_mass},
-       {"CMASS1", read_scalar_mass},
-       {"CMASS2", read_scalar_mass},
-       {"RBE2", read_rigid},
-       {"RBE3", read_average},
-       {"RBAR", read_rigid}}};
+      by_word<Reader>(
+          {{index_card, {"GRID",  "GRDSET", "CORD1R", "CORD1C", "CORD1S", "CORD2R", "CORD2C", "CORD2S", "MAT1",  "PBAR",
+                         "PBARL", "PBEAM",  "PBEAML", "PROD",   "PSHELL", "PSOLID", "PELAS",  "PBUSH",  "PMASS", "SPOINT"}}}),
+      by_word<Reader>({{read_member, {"CBAR", "CBEAM"}},
+                       {read_rod, {"CROD", "CONROD"}},
+                       {read_shell, {"CQUAD4", "CTRIA3", "CQUAD8", "CTRIA6"}},
+                       {read_solid, {"CHEXA", "CTETRA"}}}),
+      by_word<Reader>({{read_scalar_spring, {"CELAS1", "CELAS2"}},
+                       {read_bush, {"CBUSH"}},
+                       {read_mass, {"CONM1", "CONM2"}},
+                       {read_scalar_mass, {"CMASS1", "CMASS2"}},
+                       {read_rigid, {"RBE2", "RBAR"}},
+                       {read_average, {"RBE3"}}})};
   return passes;
-}
-
-struct Reason {
-  const char* reason;
-  std::initializer_list<const char*> cards;
-};
-
-std::map<std::string, std::string> by_card(std::span<const Reason> reasons) {
-  std::map<std::string, std::string> result;
-  for (const Reason& reason : reasons)
-    for (const char* card : reason.cards) result.emplace(card, reason.reason);
-  return result;
 }
 
 /// Cards that change neither stiffness nor mass, with the reason ("a load"); they are counted in a note.
 const std::map<std::string, std::string>& ignored_cards() {
-  static const std::map<std::string, std::string> cards = [] {
-    const Reason reasons[] = {
-        {"say how modes are computed", {"EIGRL", "EIGR", "EIGB", "EIGC", "EIGP", "SUPORT", "SUPORT1"}},
-        {"choose unknowns for a reduction, which is not done here",
-         {"ASET", "ASET1", "OMIT", "OMIT1", "QSET", "QSET1", "USET", "USET1"}},
-        {"are loads: they act on modes where STATSUB chooses their subcase",
-         {"FORCE",  "FORCE1", "FORCE2", "MOMENT", "MOMENT1", "MOMENT2", "PLOAD",  "PLOAD1", "PLOAD2",
-          "PLOAD4", "GRAV",   "RFORCE", "LOAD",   "LSEQ",    "DLOAD",   "SLOAD",  "SPCD",   "DAREA",
-          "DELAY",  "DPHASE", "RLOAD1", "RLOAD2", "TLOAD1",  "TLOAD2",  "DEFORM", "ACCEL",  "ACCEL1"}},
-        {"are random loads", {"RANDPS", "RANDT1", "TABRND1"}},
-        {"are temperatures, which act on modes where STATSUB chooses them, or belong to heat",
-         {"TEMP", "TEMPD", "TEMPRB", "TEMPP1", "MAT4", "MAT5", "CHBDYE", "CHBDYG", "CONV", "PCONV", "RADM", "RADBC"}},
-        {"are tables of loads or damping", {"TABLED1", "TABLED2", "TABLED3", "TABLED4", "TABDMP1"}},
-        {"are steps of a response", {"FREQ", "FREQ1", "FREQ2", "FREQ3", "FREQ4", "FREQ5", "TSTEP", "TSTEPNL", "NLPARM"}},
-        {"are air, not structure",
-         {"AERO", "AEROS", "CAERO1", "PAERO1", "SPLINE1", "SPLINE2", "MKAERO1", "MKAERO2", "FLUTTER", "FLFACT", "GUST", "TRIM",
-          "AESTAT", "AESURF", "AELIST"}},
-        {"are dampers: give them in springs.csv of the model folder",
-         {"CDAMP1", "CDAMP2", "CDAMP3", "CDAMP4", "PDAMP", "CVISC", "PVISC"}},
-        {"are control equations, which enter complex modes only", {"TF", "EPOINT"}},
-        {"are lists, pictures or settings of the program", {"SET1", "SET3", "PLOTEL", "MDLPRM"}},
-        {"are design variables and responses",
-         {"DESVAR", "DVPREL1", "DVMREL1", "DRESP1", "DRESP2", "DCONSTR", "DCONADD", "DOPTPRM", "DLINK"}}};
-    return by_card(reasons);
-  }();
+  static const std::map<std::string, std::string> cards = by_word<std::string>(
+      {{"say how modes are computed", {"EIGRL", "EIGR", "EIGB", "EIGC", "EIGP", "SUPORT", "SUPORT1"}},
+       {"choose unknowns for a reduction, which is not done here",
+        {"ASET", "ASET1", "OMIT", "OMIT1", "QSET", "QSET1", "USET", "USET1"}},
+       {"are loads: they act on modes where STATSUB chooses their subcase",
+        {"FORCE",  "FORCE1", "FORCE2", "MOMENT", "MOMENT1", "MOMENT2", "PLOAD",  "PLOAD1", "PLOAD2",
+         "PLOAD4", "GRAV",   "RFORCE", "LOAD",   "LSEQ",    "DLOAD",   "SLOAD",  "SPCD",   "DAREA",
+         "DELAY",  "DPHASE", "RLOAD1", "RLOAD2", "TLOAD1",  "TLOAD2",  "DEFORM", "ACCEL",  "ACCEL1"}},
+       {"are random loads", {"RANDPS", "RANDT1", "TABRND1"}},
+       {"are temperatures, which act on modes where STATSUB chooses them, or belong to heat",
+        {"TEMP", "TEMPD", "TEMPRB", "TEMPP1", "MAT4", "MAT5", "CHBDYE", "CHBDYG", "CONV", "PCONV", "RADM", "RADBC"}},
+       {"are tables of loads or damping", {"TABLED1", "TABLED2", "TABLED3", "TABLED4", "TABDMP1"}},
+       {"are steps of a response", {"FREQ", "FREQ1", "FREQ2", "FREQ3", "FREQ4", "FREQ5", "TSTEP", "TSTEPNL", "NLPARM"}},
+       {"are air, not structure",
+        {"AERO", "AEROS", "CAERO1", "PAERO1", "SPLINE1", "SPLINE2", "MKAERO1", "MKAERO2", "FLUTTER", "FLFACT", "GUST", "TRIM",
+         "AESTAT", "AESURF", "AELIST"}},
+       {"are dampers: give them in springs.csv of the model folder",
+        {"CDAMP1", "CDAMP2", "CDAMP3", "CDAMP4", "PDAMP", "CVISC", "PVISC"}},
+       {"are control equations, which enter complex modes only", {"TF", "EPOINT"}},
+       {"are lists, pictures or settings of the program", {"SET1", "SET3", "PLOTEL", "MDLPRM"}},
+       {"are design variables and responses",
+        {"DESVAR", "DVPREL1", "DVMREL1", "DRESP1", "DRESP2", "DCONSTR", "DCONADD", "DOPTPRM", "DLINK"}}});
   return cards;
 }
 
 /// Cards that are known and refused, with what to write instead.
 const std::map<std::string, std::string>& refused_cards() {
-  static const std::map<std::string, std::string> cards = [] {
-    const Reason reasons[] = {
-        {"mesh the plate with quadrilaterals (CQUAD4)", {"CTRIAR"}},
-        {"a CQUADR may be written as CQUAD4", {"CQUADR"}},
-        {"mesh with hexahedra of 8 nodes (CHEXA)", {"CPENTA", "CPYRAM"}},
-        {"give the plate as a PSHELL of one material", {"PCOMP", "PCOMPG", "MAT2", "MAT8", "CSHEAR"}},
-        {"give an isotropic material by MAT1", {"MAT3", "MAT9", "MAT10", "MATT1"}},
-        {"a rigid joint is RBE2 or RBAR", {"RBE1", "RROD", "RTRPLT", "RSPLINE", "CWELD", "CFAST"}},
-        {"write a straight CBAR or CBEAM with PBAR or PBEAM", {"CBEND", "PBEND", "PBCOMP", "PBMSECT", "PBRSECT"}},
-        {"write a CROD with the area of the tube", {"CTUBE", "PTUBE"}},
-        {"give every element its own fields", {"BAROR", "BEAMOR"}},
-        {"put a GRID in place of the scalar point", {"CELAS3", "CELAS4", "CMASS3", "CMASS4"}},
-        {"give the whole model as matrices (docs/my_model.md), or the element by DMIG", {"GENEL"}},
-        {"give DMIG, which is chosen by K2GG and M2GG", {"DMIJ", "DMIJI", "DMIK", "DMI"}},
-        {"modes need a linear joint: CELAS2 or CBUSH", {"CGAP", "CBUSH1D", "BCTABLE", "BCONTACT", "BSURF"}}};
-    return by_card(reasons);
-  }();
+  static const std::map<std::string, std::string> cards = by_word<std::string>(
+      {{"mesh the plate with quadrilaterals (CQUAD4)", {"CTRIAR"}},
+       {"a CQUADR may be written as CQUAD4", {"CQUADR"}},
+       {"mesh with hexahedra of 8 nodes (CHEXA)", {"CPENTA", "CPYRAM"}},
+       {"give the plate as a PSHELL of one material", {"PCOMP", "PCOMPG", "MAT2", "MAT8", "CSHEAR"}},
+       {"give an isotropic material by MAT1", {"MAT3", "MAT9", "MAT10", "MATT1"}},
+       {"a rigid joint is RBE2 or RBAR", {"RBE1", "RROD", "RTRPLT", "RSPLINE", "CWELD", "CFAST"}},
+       {"write a straight CBAR or CBEAM with PBAR or PBEAM", {"CBEND", "PBEND", "PBCOMP", "PBMSECT", "PBRSECT"}},
+       {"write a CROD with the area of the tube", {"CTUBE", "PTUBE"}},
+       {"give every element its own fields", {"BAROR", "BEAMOR"}},
+       {"put a GRID in place of the scalar point", {"CELAS3", "CELAS4", "CMASS3", "CMASS4"}},
+       {"give the whole model as matrices (docs/my_model.md), or the element by DMIG", {"GENEL"}},
+       {"give DMIG, which is chosen by K2GG and M2GG", {"DMIJ", "DMIJI", "DMIK", "DMI"}},
+       {"modes need a linear joint: CELAS2 or CBUSH", {"CGAP", "CBUSH1D", "BCTABLE", "BCONTACT", "BSURF"}}});
   return cards;
 }
 
 /// PARAM names that would scale the matrices of the structure; every other parameter but WTMASS and COUPMASS is passed over.
 bool scales_matrices(const std::string& parameter) {
-  for (const char* name : {"CK1", "CK2", "CK3", "CM1", "CM2"})
-    if (parameter == name) return true;
-  return false;
+  return contains(std::array{"CK1", "CK2", "CK3", "CM1", "CM2"}, parameter);
 }
 
 /// Read together at the end, by the sets that the case control chooses; and parameters.
 bool is_read_apart(const std::string& name) {
-  constexpr std::array<const char*, 7> names = {"SPC", "SPC1", "SPCADD", "MPC", "MPCADD", "PARAM", "DMIG"};
-  return std::find(names.begin(), names.end(), name) != names.end();
+  return contains(std::array{"SPC", "SPC1", "SPCADD", "MPC", "MPCADD", "PARAM", "DMIG"}, name);
 }
 
 void refuse_or_note(Parts& parts) {
@@ -139,8 +106,7 @@ void refuse_or_note(Parts& parts) {
     for (const auto& [name, reader] : pass) known.push_back(name);
   std::map<std::string, std::pair<long, const Card*>> passed_over;
   for (const Card& card : parts.deck.cards()) {
-    const bool is_known = is_read_apart(card.name) || std::find(known.begin(), known.end(), card.name) != known.end();
-    if (is_known) {
+    if (is_read_apart(card.name) || contains(known, card.name)) {
       if (!card.stray.empty())
         card.fail(fmt::format("the line '{}' below it is the continuation of another card", card.stray),
                   "put the continuations of a card below it");
@@ -194,8 +160,8 @@ void sort_nodes(Parts& parts) {
   int next = 0;
   for (auto& [grid, position] : parts.node_position) position = now[fe::slot(position)] = next++;
   renumber_nodes(parts.model, now);
-  const auto used = std::count_if(parts.node_position.begin(), parts.node_position.end(),
-                                  [&](const auto& node) { return parts.grids.contains(node.first); });
+  const auto used =
+      std::ranges::count_if(parts.node_position, [&](const auto& node) { return parts.grids.contains(node.first); });
   if (const auto unused = std::ssize(parts.grids) - used; unused > 0)
     parts.notes.push_back(fmt::format("grids that no element, mass or link uses are left out: {}", unused));
 }
@@ -224,11 +190,9 @@ ImportedModel read_nastran(const std::filesystem::path& path) {
   parts.model.title = deck.case_control().title;
   nastran::refuse_or_note(parts);
   parts.wtmass = nastran::read_parameters(parts);
-  for (const auto& pass : nastran::reading_passes()) {
-    for (const nastran::Card& card : deck.cards()) {
+  for (const auto& pass : nastran::reading_passes())
+    for (const nastran::Card& card : deck.cards())
       if (const auto reader = pass.find(card.name); reader != pass.end()) reader->second(parts, card);
-    }
-  }
   nastran::read_multipoint(parts);
   nastran::read_direct_matrices(parts);
   nastran::finish_masses(parts);
