@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "core/error.hpp"
+#include "core/lists.hpp"
 #include "model_io/ansys_members.hpp"
 #include "model_io/ansys_stage.hpp"
 #include "model_io/ansys_supports.hpp"
@@ -24,8 +25,7 @@ void check_options(const Parts& parts, const TypeDefinition& definition) {
   for (const auto& [number, option] : definition.options) {
     const auto allowed = definition.type->options.find(number);
     const bool listed = allowed != definition.type->options.end();
-    const bool read = listed && (allowed->second.empty() || std::find(allowed->second.begin(), allowed->second.end(),
-                                                                      option.value) != allowed->second.end());
+    const bool read = listed && (allowed->second.empty() || contains(allowed->second, option.value));
     if (read || (!listed && option.value == 0)) continue;
     parts.at(option.line, "KEYOPT")
         .fail(fmt::format("KEYOPT({}) = {} of {} is not supported", number, option.value, definition.type->name),
@@ -37,20 +37,17 @@ void check_options(const Parts& parts, const TypeDefinition& definition) {
 }  // namespace
 
 Member checked_member(const Parts& parts, long id, const Element& element) {
-  const std::string label = fmt::format("element {}", id);
+  const DeckPlace at = parts.at(element.line, fmt::format("element {}", id));
   const auto found = parts.types.find(element.type);
   if (found == parts.types.end())
-    parts.at(element.line, label)
-        .fail(fmt::format("its type {} is not defined", element.type), "give the ET command of that type");
+    at.fail(fmt::format("its type {} is not defined", element.type), "give the ET command of that type");
   const TypeDefinition& definition = found->second;
   if (definition.type == nullptr)
-    parts.at(element.line, label)
-        .fail(fmt::format("is of type {} (line {}), which is not supported", definition.name, definition.line),
-              "supported are " + element_type_list());
+    at.fail(fmt::format("is of type {} (line {}), which is not supported", definition.name, definition.line),
+            "supported are " + element_type_list());
   const ElementType& type = *definition.type;
   if (type.kind == Kind::layered)
-    parts.at(element.line, label)
-        .fail(fmt::format("is a {}, which is not supported", type.name), "mesh with homogeneous shells (SHELL181, SHELL281)");
+    at.fail(fmt::format("is a {}, which is not supported", type.name), "mesh with homogeneous shells (SHELL181, SHELL281)");
   if (type.kind == Kind::load) return {id, element, definition};
   check_options(parts, definition);
   // Beams may have a node that only gives their direction.
@@ -59,13 +56,10 @@ Member checked_member(const Parts& parts, long id, const Element& element) {
   const std::size_t count = element.nodes.size();
   const bool corners_only =
       (type.kind == Kind::shell && (count == 3 || count == 4)) || (type.kind == Kind::solid && count == 8 && type.nodes > 8);
-  if (count < type.nodes && !corners_only)
-    parts.at(element.line, label)
-        .fail(fmt::format("has {} nodes, a {} has {}", element.nodes.size(), type.name, type.nodes), "complete the element");
-  if (element.nodes.size() > type.nodes + extra)
-    parts.at(element.line, label)
-        .fail(fmt::format("has {} nodes, a {} has {}", element.nodes.size(), type.name, type.nodes),
-              "correct the list of nodes, or take an element type that has so many");
+  const bool too_few = count < type.nodes && !corners_only;
+  if (too_few || count > type.nodes + extra)
+    at.fail(fmt::format("has {} nodes, a {} has {}", count, type.name, type.nodes),
+            too_few ? "complete the element" : "correct the list of nodes, or take an element type that has so many");
   return {id, element, definition};
 }
 
@@ -157,16 +151,11 @@ void build_model(Parts& parts) {
   builder.add_nodes();
   if (!parts.elements.empty()) parts.last_element = parts.elements.rbegin()->first;
   for_each_member(parts, [&](const Member& m) {
-    switch (m.type().kind) {
-      case Kind::spring:
-        return add_spring(builder, m);
-      case Kind::mass:
-        return;  // after the supports, which say which directions it moves in
-      case Kind::rigid:
-        return parts.add_link(builder.node(m.element.nodes[0]), builder.node(m.element.nodes[1]));
-      default:
-        return add_member(builder, m);
-    }
+    const Kind kind = m.type().kind;
+    if (kind == Kind::mass) return;  // after the supports, which say which directions it moves in
+    if (kind == Kind::spring) return add_spring(builder, m);
+    if (kind == Kind::rigid) return parts.add_link(builder.node(m.element.nodes[0]), builder.node(m.element.nodes[1]));
+    add_member(builder, m);
   });
   add_ties(builder);
   add_supports(builder);

@@ -58,13 +58,11 @@ class Builder {
   std::map<long, int> materials_;
 };
 
-/// Calls `visit(member)` for each element that is in the model, in the order of their numbers.
+/// The member of an element.
 /// @throws InputError  for a type that is not read, an option that is not, or the wrong number of nodes
-template <class Visit>
-void for_each_member(const Parts& parts, Visit visit);
-/// The member of an element after these checks.
 [[nodiscard]] Member checked_member(const Parts& parts, long id, const Element& element);
 
+/// Calls `visit(member)` for each element that is in the model, in the order of their numbers, after these checks.
 template <class Visit>
 void for_each_member(const Parts& parts, Visit visit) {
   for (const auto& [id, element] : parts.elements) {

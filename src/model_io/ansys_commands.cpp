@@ -35,7 +35,7 @@ bool to_assignment(const std::string& text, Command& command) {
   const std::size_t equals = find_outside(text, '=', true);
   if (equals == text.size() || equals == 0) return false;
   const std::string name = trimmed(text.substr(0, equals));
-  const std::size_t plain = static_cast<std::size_t>(std::find_if_not(name.begin(), name.end(), is_name) - name.begin());
+  const std::size_t plain = static_cast<std::size_t>(std::ranges::find_if_not(name, is_name) - name.begin());
   if (plain == 0 || (plain < name.size() && name[plain] != '(')) return false;
   command.key = "=";
   command.label = command.name = name;
@@ -75,12 +75,9 @@ std::size_t leading_number(const std::string& text, std::size_t& at) {
 
 std::vector<std::string> split_fields(const std::string& text, char separator) {
   std::vector<std::string> fields;
-  std::size_t start = 0;
-  while (true) {
-    const std::size_t end = find_outside(text, separator, true, start);
+  for (std::size_t start = 0, end = 0; start <= text.size(); start = end + 1) {
+    end = find_outside(text, separator, true, start);
     fields.push_back(trimmed(text.substr(start, end - start)));
-    if (end == text.size()) break;
-    start = end + 1;
   }
   return fields;
 }

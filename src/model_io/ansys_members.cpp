@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "core/error.hpp"
+#include "core/lists.hpp"
 #include "model_io/ansys_sections.hpp"
 #include "model_io/profiles.hpp"
 
@@ -22,7 +23,7 @@ fe::Element element_of(Builder& builder, const Member& member, fe::ElementType t
   fe::Element e;
   e.id = member.id;
   e.type = type;
-  for (const long id : nodes) e.nodes.push_back(builder.node(id));
+  e.nodes = each_of(nodes, [&](long id) { return builder.node(id); });
   if (std::set<int>(e.nodes.begin(), e.nodes.end()).size() != nodes.size())
     builder.fail(member, "names a node twice", "give different nodes");
   return e;
@@ -98,7 +99,7 @@ std::vector<long> nodes_of_shell(const Builder& builder, const Member& member) {
   std::vector<long> nodes;
   for (const long id :
        linear ? std::vector<long>(all.begin(), all.begin() + std::min<std::ptrdiff_t>(4, std::ssize(all))) : all) {
-    if (std::find(nodes.begin(), nodes.end(), id) == nodes.end()) nodes.push_back(id);
+    if (std::ranges::find(nodes, id) == nodes.end()) nodes.push_back(id);
   }
   return nodes;
 }
@@ -117,7 +118,7 @@ void add_shell(Builder& builder, const Member& member) {
 void add_solid(Builder& builder, const Member& member) {
   std::vector<long> nodes = member.element.nodes;
   if (nodes.size() > 8 && std::all_of(nodes.begin() + 8, nodes.end(), [](long id) { return id == 0; })) nodes.resize(8);
-  if (std::find(nodes.begin(), nodes.end(), 0L) != nodes.end())
+  if (std::ranges::find(nodes, 0L) != nodes.end())
     builder.fail(member, "leaves out some of the nodes on its edges, which is not supported", "give all, or none");
   const std::size_t different = std::set<long>(nodes.begin(), nodes.end()).size();
   // A tetrahedron is written as a hexahedron I, J, K, K, M, M, M, M, and its edges as those of one: I-J, J-K, K, K-I, M four
@@ -155,10 +156,9 @@ std::array<bool, 3> moving_directions(const Builder& builder, long id) {
   const fe::Model& model = builder.parts.model;
   const int node = builder.node(id);
   std::array<bool, 3> moves{};
-  const auto is_there = [&](const auto& nodes) { return std::find(nodes.begin(), nodes.end(), node) != nodes.end(); };
-  const bool whole = std::ranges::any_of(model.elements, [&](const fe::Element& e) { return is_there(e.nodes); }) ||
-                     std::any_of(model.links.begin(), model.links.end(),
-                                 [&](const fe::RigidLink& l) { return l.master == node || l.slave == node; });
+  const bool whole =
+      std::ranges::any_of(model.elements, [&](const fe::Element& e) { return contains(e.nodes, node); }) ||
+      std::ranges::any_of(model.links, [&](const fe::RigidLink& l) { return l.master == node || l.slave == node; });
   moves.fill(whole);
   for (const fe::Spring& s : model.springs)
     for (std::size_t d = 0; d < 3; ++d)
@@ -168,25 +168,19 @@ std::array<bool, 3> moving_directions(const Builder& builder, long id) {
     for (const fe::Constraint::Term& term : c.terms)
       if (term.node == node && term.direction < 3) moves[static_cast<std::size_t>(term.direction)] = true;
   }
-  for (const fe::Support& support : model.supports) {
+  for (const fe::Support& support : model.supports)
     for (std::size_t d = 0; d < 3; ++d) moves[d] = moves[d] && !(support.node == node && support.fixed[d]);
-  }
   return moves;
 }
 
 }  // namespace
 
 void add_member(Builder& builder, const Member& member) {
-  switch (member.type().kind) {
-    case Kind::bar:
-      return add_bar(builder, member);
-    case Kind::shell:
-      return add_shell(builder, member);
-    case Kind::solid:
-      return add_solid(builder, member);
-    default:
-      return add_beam(builder, member);
-  }
+  const Kind kind = member.type().kind;
+  if (kind == Kind::bar) return add_bar(builder, member);
+  if (kind == Kind::shell) return add_shell(builder, member);
+  if (kind == Kind::solid) return add_solid(builder, member);
+  add_beam(builder, member);
 }
 
 void add_spring(Builder& builder, const Member& member) {
@@ -245,7 +239,7 @@ void add_mass(Builder& builder, const Member& member) {
     mass.mass_kg = masses[d];
     given = true;
   }
-  if (!given) mass.mass_kg = *std::max_element(masses.begin(), masses.end());
+  if (!given) mass.mass_kg = *std::ranges::max_element(masses);
   const Eigen::Vector3d& inertia = mass.inertia_kg_m2;
   if (node_of(builder, id).rotated() && (inertia.x() != inertia.y() || inertia.x() != inertia.z()))
     builder.fail(member, "has inertia that differs by direction at a node whose axes are turned",

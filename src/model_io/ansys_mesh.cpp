@@ -26,10 +26,19 @@ void add_element(Parts& parts, long id, Element element) {
   if (!parts.selected_elements.all) parts.selected_elements.ids.insert(id);
 }
 
+void drop_blank_end(Element& element) {
+  while (!element.nodes.empty() && element.nodes.back() == 0) element.nodes.pop_back();
+}
+
+void append_nodes(const Command& command, Element& element) {
+  for (std::size_t i = 0; i < command.fields.size(); ++i) element.nodes.push_back(command.integer_or(i, 0));
+  drop_blank_end(element);
+}
+
 /// Axes of a node, turned about z, then about its own x, then about its own y [degrees].
-Eigen::Matrix3d turned_axes(const std::array<double, 3>& angles) {
-  if (angles == std::array<double, 3>{}) return Eigen::Matrix3d::Identity();
-  const auto by = [&](std::size_t i, int axis) {
+Eigen::Matrix3d turned_axes(const Eigen::Vector3d& angles) {
+  if (angles.isZero(0.0)) return Eigen::Matrix3d::Identity();
+  const auto by = [&](int i, int axis) {
     return Eigen::AngleAxisd(angles[i] * std::numbers::pi / 180.0, Eigen::Vector3d::Unit(axis));
   };
   return (by(0, 2) * by(1, 0) * by(2, 1)).toRotationMatrix().transpose();
@@ -40,10 +49,9 @@ bool read_archived_node(Parts& parts, const Command& command) {
   if (!command.word(0).starts_with("R5.") && command.word(0) != "UNBL") return false;
   const long id = command.integer(2);
   if (id < 1) return true;
-  std::array<double, 3> values{};
-  for (std::size_t i = 0; i < 3; ++i) values[i] = command.number_or(i + 3, 0.0);
+  const Eigen::Vector3d values = command.vector(3);
   if (command.word(1) == "LOC") {
-    add_node(parts, id, {Eigen::Vector3d(values[0], values[1], values[2])});
+    add_node(parts, id, {values});
   } else if (command.word(1) == "ANG") {
     const auto found = parts.nodes.find(id);
     if (found == parts.nodes.end()) command.fail(fmt::format("node {} is not defined", id), "give its LOC line before");
@@ -120,18 +128,14 @@ void read_node(Parts& parts, const Command& command) {
     command.fail("stands where CSYS is not 0, and other axes are not supported", "give nodes in global Cartesian axes");
   const long id = command.integer_or(0, parts.nodes.empty() ? 1 : parts.nodes.rbegin()->first + 1);
   if (id < 1) command.fail(fmt::format("{} is no node number", id), "give 1 or more");
-  Node node;
-  for (std::size_t i = 0; i < 3; ++i) node.x_m[static_cast<int>(i)] = command.number_or(i + 1, 0.0);
-  node.axes = turned_axes({command.number_or(4, 0.0), command.number_or(5, 0.0), command.number_or(6, 0.0)});
-  add_node(parts, id, node);
+  add_node(parts, id, {command.vector(1), turned_axes(command.vector(4))});
   parts.last_nodes = {parts.last_nodes[1], id};
 }
 
 void read_element(Parts& parts, const Command& command) {
   Element element = parts.active;
   element.line = command.line;
-  for (std::size_t i = 0; i < command.fields.size(); ++i) element.nodes.push_back(command.integer_or(i, 0));
-  while (!element.nodes.empty() && element.nodes.back() == 0) element.nodes.pop_back();
+  append_nodes(command, element);
   add_element(parts, parts.elements.empty() ? 1 : parts.elements.rbegin()->first + 1, element);
 }
 
@@ -144,8 +148,7 @@ void read_numbered_element(Parts& parts, const Command& command) {
   rest.fields.erase(rest.fields.begin());
   Element element = parts.active;
   element.line = command.line;
-  for (std::size_t i = 0; i < rest.fields.size(); ++i) element.nodes.push_back(rest.integer_or(i, 0));
-  while (!element.nodes.empty() && element.nodes.back() == 0) element.nodes.pop_back();
+  append_nodes(rest, element);
   add_element(parts, id, element);
 }
 
@@ -191,8 +194,7 @@ void generate_nodes(Parts& parts, const Command& command) {
   Command range = command;
   range.fields.erase(range.fields.begin(), range.fields.begin() + 2);
   if (range.fields.size() > 3) range.fields.resize(3);
-  Eigen::Vector3d shift;
-  for (std::size_t i = 0; i < 3; ++i) shift[static_cast<int>(i)] = command.number_or(5 + i, 0.0);
+  const Eigen::Vector3d shift = command.vector(5);
   for (const long id : parts.nodes_of(range, 0, 1)) {
     const Node original = parts.nodes.at(id);
     for (long copy = 1; copy < times; ++copy)
@@ -232,8 +234,7 @@ void read_more_nodes(Parts& parts, const Command& command) {
   if (parts.elements.empty()) command.fail("stands before any E", "give E with the first eight nodes before it");
   Element& element = parts.elements.rbegin()->second;
   if (element.nodes.size() < of_e) element.nodes.resize(of_e, 0);
-  for (std::size_t i = 0; i < command.fields.size(); ++i) element.nodes.push_back(command.integer_or(i, 0));
-  while (!element.nodes.empty() && element.nodes.back() == 0) element.nodes.pop_back();
+  append_nodes(command, element);
 }
 
 void read_type_block(Parts& parts, const Command& block) {
@@ -242,10 +243,7 @@ void read_type_block(Parts& parts, const Command& block) {
     const auto cells = needed_cells(parts, block, columns);
     const long id = cells.integer_or(0, 0);
     if (id < 1) break;
-    TypeDefinition definition;
-    definition.line = parts.deck.line();
-    definition.name = cells.word(1);
-    definition.type = element_type(definition.name);
+    TypeDefinition definition{cells.word(1), element_type(cells.word(1)), {}, parts.deck.line()};
     for (std::size_t i = 2; i < cells.fields.size(); ++i)
       if (const long value = cells.integer_or(i, 0); value != 0)
         definition.options[static_cast<int>(i) - 1] = {value, definition.line};
@@ -264,12 +262,7 @@ void read_node_block(Parts& parts, const Command& block) {
     if (id < 1)
       here(parts, block)
           .fail(fmt::format("'{}' is neither a node nor the end of the block", trimmed(text)), "end the block by -1");
-    Node node;
-    node.x_m = cells.vector(columns.integers);
-    std::array<double, 3> angles{};
-    for (std::size_t i = 3; i < std::min(columns.reals, 6UL); ++i) angles[i - 3] = cells.number_or(columns.integers + i, 0.0);
-    node.axes = turned_axes(angles);
-    add_node(parts, id, node);
+    add_node(parts, id, {cells.vector(columns.integers), turned_axes(cells.vector(columns.integers + 3))});
   }
 }
 
@@ -310,7 +303,7 @@ void read_element_block(Parts& parts, const Command& block) {
       if (i >= cells.fields.size() && !solid) break;
       element.nodes.push_back(cells.integer_or(i, 0));
     }
-    while (!element.nodes.empty() && element.nodes.back() == 0) element.nodes.pop_back();
+    drop_blank_end(element);
     add_element(parts, id, element);
   }
 }

@@ -47,10 +47,10 @@ struct TypeDefinition {
 };
 
 struct SectionDefinition {
-  std::string type, subtype, name;        ///< "BEAM", "RECT", the user's name
-  std::vector<std::vector<double>> data;  ///< one row a SECDATA, or a line of SECBLOCK
-  std::string offset;                     ///< "CENT", "MID", "USER" …; "": the type's own
-  std::array<double, 2> offset_m{};       ///< of USER
+  std::string type, subtype, name;             ///< "BEAM", "RECT", the user's name
+  std::vector<std::vector<double>> data = {};  ///< one row a SECDATA, or a line of SECBLOCK
+  std::string offset = {};                     ///< "CENT", "MID", "USER" …; "": the type's own
+  std::array<double, 2> offset_m{};            ///< of USER
   long line = 0;
 };
 
@@ -147,7 +147,7 @@ struct Parts : DeckModel {
   /// Remembers an ignored command, unless all that it says is 0 (archives write all loads so).
   void tell(const Command& command) {
     const auto says = [](const std::string& f) { return f.find_first_not_of(" 0.+-Ee") != std::string::npos; };
-    if (std::any_of(command.fields.begin(), command.fields.end(), says)) told.emplace(upper_case(command.name), command.line);
+    if (std::ranges::any_of(command.fields, says)) told.emplace(upper_case(command.name), command.line);
   }
   std::map<long, Node> nodes;
   std::array<long, 2> last_nodes{};  ///< the last two that N gave; 0: none

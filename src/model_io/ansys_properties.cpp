@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "core/error.hpp"
+#include "core/lists.hpp"
 
 /// Types with their key options, real constants, materials, sections.
 namespace twindeck::model_io::ansys {
@@ -28,16 +29,14 @@ void set_reals(const Command& command, RealSet& set, std::size_t first) {
 bool is_mechanical(const std::string& label) {
   static const std::vector<std::string> labels = {"EX",   "EY",  "EZ",  "NUXY", "NUYZ", "NUXZ", "PRXY", "PRYZ",
                                                   "PRXZ", "GXY", "GYZ", "GXZ",  "DENS", "ALPX", "REFT"};
-  return std::find(labels.begin(), labels.end(), label) != labels.end();
+  return contains(labels, label);
 }
 
 void set_property(Parts& parts, const Command& command, const std::string& label, long material, double value) {
-  if (!is_mechanical(label)) {
-    if (label.starts_with("DM") || label == "DAMP" || label == "ALPD" || label == "BETD")
-      parts.told.emplace("MP," + label, command.line);
-    return;
-  }
-  parts.materials[material][label] = {value, command.line};
+  if (is_mechanical(label))
+    parts.materials[material][label] = {value, command.line};
+  else if (label.starts_with("DM") || label == "DAMP" || label == "ALPD" || label == "BETD")
+    parts.told.emplace("MP," + label, command.line);
 }
 
 SectionDefinition& current_section(Parts& parts, const Command& command) {
@@ -68,8 +67,7 @@ void read_option(Parts& parts, const Command& command) {
 void read_reals(Parts& parts, const Command& command) {
   parts.real = command.integer(0);
   parts.real_filled = a_line;
-  RealSet set;
-  set.line = command.line;
+  RealSet set{{}, command.line};
   set_reals(command, set, 1);
   parts.reals[parts.real] = set;
 }
@@ -117,11 +115,7 @@ void read_property_data(Parts& parts, const Command& command) {
 
 void read_section_type(Parts& parts, const Command& command) {
   parts.section = command.integer(0);
-  SectionDefinition section;
-  section.type = command.word(1);
-  section.subtype = command.word(2);
-  section.name = command.blank(3) ? "" : command.fields[3];
-  section.line = command.line;
+  SectionDefinition section{.type = command.word(1), .subtype = command.word(2), .name = command.text(3), .line = command.line};
   parts.sections[parts.section] = section;
 }
 

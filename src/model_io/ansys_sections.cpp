@@ -83,10 +83,8 @@ CrossSection space_beam(const Builder& builder, const Member& member) {
 /// PIPE16: outer diameter, wall, then stress factors; what adds mass (insulation, fluid) is refused.
 fe::Section pipe_of_reals(const Builder& builder, const Member& member, double poisson_ratio) {
   const RealSet& r = builder.reals(member);
-  for (std::size_t i = 3; i <= 10; ++i) {
-    const bool is_factor = i == 3 || i == 4;
-    if (!is_factor) require_zero(builder, member, r, i, "a fluid, an insulation or a corrosion allowance", give_density);
-  }
+  for (std::size_t i = 5; i <= 10; ++i)
+    require_zero(builder, member, r, i, "a fluid, an insulation or a corrosion allowance", give_density);
   const double radius = positive(builder, member, r, 1, "outer diameter") / 2.0;
   const ProfileSection s = profile_section(circle(radius, radius - positive(builder, member, r, 2, "wall")), poisson_ratio);
   if (!s.possible)
@@ -157,20 +155,12 @@ Eigen::Vector2d node_place(const Builder& builder, const Member& member, const S
 
 CrossSection beam_section(Builder& builder, const Member& member, double poisson_ratio) {
   CrossSection cross;
-  const std::string of_reals = fmt::format("real_{}", member.element.real);
-  if (member.type().kind == Kind::plane_beam) {
-    cross.section = plane_beam(builder, member, cross.initial_strain);
-    cross.section.name = of_reals;
-    return cross;
-  }
-  if (member.is("BEAM4")) {
-    cross = space_beam(builder, member);
-    cross.section.name = of_reals;
-    return cross;
-  }
-  if (member.is("PIPE16")) {
-    cross.section = pipe_of_reals(builder, member, poisson_ratio);
-    cross.section.name = of_reals;
+  const bool plane = member.type().kind == Kind::plane_beam, space = member.is("BEAM4"), old_pipe = member.is("PIPE16");
+  if (plane) cross.section = plane_beam(builder, member, cross.initial_strain);
+  if (space) cross = space_beam(builder, member);
+  if (old_pipe) cross.section = pipe_of_reals(builder, member, poisson_ratio);
+  if (plane || space || old_pipe) {
+    cross.section.name = fmt::format("real_{}", member.element.real);
     return cross;
   }
   const bool pipe = member.is("PIPE288") || member.is("PIPE289");
@@ -262,10 +252,8 @@ CrossSection shell_section(Builder& builder, const Member& member) {
   if (member.is("SHELL63")) {
     require_zero(builder, member, r, 5, "an elastic foundation", "use COMBIN14 below the nodes");
     if (r.at(7) > 0.0) cross.section.bending_inertia_ratio = r.at(7);
-    require_zero(builder, member, r, 18, "added mass", give_density);
-  } else {
-    require_zero(builder, member, r, 6, "added mass", give_density);
   }
+  require_zero(builder, member, r, member.is("SHELL63") ? 18 : 6, "added mass", give_density);
   cross.section.name = fmt::format("real_{}", member.element.real);
   return cross;
 }

@@ -89,8 +89,8 @@ std::set<long> nodes_at(Parts& parts, const Command& command) {
 }  // namespace
 
 const Component* Parts::component(const std::string& name) const {
-  const auto found = std::find_if(components.begin(), components.end(),
-                                  [&](const Component& c) { return upper_case(c.name) == upper_case(name); });
+  const auto found =
+      std::ranges::find_if(components, [&](const Component& c) { return upper_case(c.name) == upper_case(name); });
   return found == components.end() ? nullptr : &*found;
 }
 
@@ -101,9 +101,7 @@ std::set<long> Parts::nodes_of(const Command& command, std::size_t field, std::s
       if (selected_nodes.has(id)) chosen.insert(id);
     return chosen;
   }
-  if (!command.blank(field)) {
-    if (const Component* named = component(command.fields[field]); named != nullptr && named->of_nodes) return named->members;
-  }
+  if (const Component* named = component(command.text(field)); named != nullptr && named->of_nodes) return named->members;
   const long first = command.integer(field), last = std::max(first, command.integer_or(end_field, first));
   const long step = command.integer_or(end_field + 1, 1);
   if (step < 1) command.fail(fmt::format("step {} is no step from node to node", step), "give 1 or more");

@@ -6,6 +6,7 @@
 #include <array>
 
 #include "core/error.hpp"
+#include "core/lists.hpp"
 #include "model_io/ansys_ignored.hpp"
 #include "model_io/deck_stage.hpp"
 #include "model_io/names.hpp"
@@ -164,13 +165,13 @@ bool collect_load(Parts& parts, const Command& command) {
   if (key == "F" || key == "FDEL") {
     read_nodal_force(parts, command);
   } else if (key == "ACEL") {
-    for (std::size_t i = 0; i < 3; ++i) parts.loads.acceleration[static_cast<int>(i)] = command.number_or(i, 0.0);
+    parts.loads.acceleration = command.vector(0);
   } else if (key == "SFBE" || key == "SFE") {
     read_element_pressure(parts, command);
   } else if (key == "INIS") {
     read_initial_state(parts, command);
     return true;
-  } else if (std::find(temperatures.begin(), temperatures.end(), key) != temperatures.end()) {
+  } else if (contains(temperatures, key)) {
     read_body_temperature(parts, command);
     return true;  // without a stage no word of it: moduli do not depend on it
   } else if (is_load(key)) {

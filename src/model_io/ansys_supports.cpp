@@ -115,8 +115,8 @@ class Ties {
     constexpr double nothing = 1e-12;  // terms that cancel out
     std::erase_if(order, [&](const auto& at) { return std::abs(sum[at]) < nothing; });
     if (order.empty()) return;
-    const auto slave = std::find_if(order.begin(), order.end(),
-                                    [&](const auto& at) { return !slaves_.contains(at.first) && !dependent_.contains(at); });
+    const auto slave =
+        std::ranges::find_if(order, [&](const auto& at) { return !slaves_.contains(at.first) && !dependent_.contains(at); });
     if (slave == order.end())
       equation.at.fail("ties displacements that all follow others already",
                        "take out one of the ties, or tie the node that the others follow");

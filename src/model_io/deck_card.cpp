@@ -175,7 +175,7 @@ std::filesystem::path included_file(const DeckPlace& at, const std::filesystem::
                                     const std::vector<std::filesystem::path>& open) {
   constexpr std::size_t deepest = 20;  // files within files; real decks have two or three levels
   std::string slashed = name;
-  std::replace(slashed.begin(), slashed.end(), '\\', '/');
+  std::ranges::replace(slashed, '\\', '/');
   const auto folder = open.front().parent_path();
   std::filesystem::path path = from.parent_path() / slashed;
   if (!std::filesystem::is_regular_file(path)) path = folder / slashed;
@@ -184,7 +184,7 @@ std::filesystem::path included_file(const DeckPlace& at, const std::filesystem::
   const auto canonical = std::filesystem::weakly_canonical(path);
   if (std::mismatch(folder.begin(), folder.end(), canonical.begin(), canonical.end()).first != folder.end())
     at.fail("the file does not lie below the folder of the deck", "copy it there, and include the copy");
-  if (open.size() >= deepest || std::find(open.begin(), open.end(), canonical) != open.end())
+  if (open.size() >= deepest || std::ranges::find(open, canonical) != open.end())
     at.fail(fmt::format("the file '{}' includes itself", name), "take one of the INCLUDE lines out");
   return path;
 }

@@ -21,7 +21,7 @@ bool DeckModel::together(int a, int b, double tolerance) const {
 }
 
 void DeckModel::note_once(const std::string& note) {
-  if (std::find(notes.begin(), notes.end(), note) == notes.end()) notes.push_back(note);
+  if (std::ranges::find(notes, note) == notes.end()) notes.push_back(note);
 }
 
 int DeckModel::add_node(long id, const Eigen::Vector3d& x) {
@@ -131,7 +131,7 @@ std::vector<fe::Constraint::Term> DeckModel::free_terms(const std::vector<fe::Co
     };
     bool any = false;
     for (const fe::Constraint::Term& term : now) {
-      const auto by = std::find_if(model.constraints.begin(), model.constraints.end(), [&](const fe::Constraint& c) {
+      const auto by = std::ranges::find_if(model.constraints, [&](const fe::Constraint& c) {
         return c.node == term.node && c.direction == term.direction && c.name.starts_with(skew_support);
       });
       if (by == model.constraints.end()) {
@@ -167,8 +167,8 @@ bool DeckModel::is_rigid_link(const std::vector<const DeckEquation*>& equations,
   Directions tied{};
   for (const DeckEquation* equation : equations) {
     const auto of_slave = [&](const fe::Constraint::Term& term) { return term.node == slave; };
-    const auto own = std::find_if(equation->terms.begin(), equation->terms.end(), of_slave);
-    if (std::count_if(equation->terms.begin(), equation->terms.end(), of_slave) != 1 || own->factor == 0.0) return false;
+    const auto own = std::ranges::find_if(equation->terms, of_slave);
+    if (std::ranges::count_if(equation->terms, of_slave) != 1 || own->factor == 0.0) return false;
     std::array<double, 6> factors{};
     for (const fe::Constraint::Term& term : equation->terms) {
       if (term.node == slave) continue;
@@ -323,7 +323,7 @@ void for_each_joined_node(fe::Model& model, const std::function<void(int&)>& f) 
   const auto named = [&](int& node) {
     if (node >= 0) f(node);
   };
-  for (fe::Element& e : model.elements) std::for_each(e.nodes.begin(), e.nodes.end(), named);
+  for (fe::Element& e : model.elements) std::ranges::for_each(e.nodes, named);
   for (fe::Spring& s : model.springs) named(s.node), named(s.node2);
   for (fe::MatrixElement& e : model.matrix_elements)
     for (fe::MatrixElement::Dof& dof : e.dofs) named(dof.node);
@@ -337,7 +337,7 @@ void for_each_joined_node(fe::Model& model, const std::function<void(int&)>& f) 
 
 void renumber_nodes(fe::Model& model, const std::vector<int>& now) {
   TWINDECK_ASSERT(now.size() == model.nodes.size());
-  std::vector<fe::Node> nodes(static_cast<std::size_t>(std::count_if(now.begin(), now.end(), [](int to) { return to >= 0; })));
+  std::vector<fe::Node> nodes(static_cast<std::size_t>(std::ranges::count_if(now, [](int to) { return to >= 0; })));
   for (std::size_t i = 0; i < now.size(); ++i)
     if (now[i] >= 0) nodes[static_cast<std::size_t>(now[i])] = std::move(model.nodes[i]);
   model.nodes = std::move(nodes);

@@ -93,10 +93,9 @@ std::string end_loads(const fe::Model& model, const fe::Element& member, const L
 /// @return a note of it, or ""
 std::string settle_displacements(fe::Model& model) {
   if (model.prestress.displacements == fe::Displacements::linear) return "";
-  const bool moves =
-      std::any_of(model.prestress.loads.begin(), model.prestress.loads.end(), [](const auto& load) { return load.movement; });
-  const bool strains = std::any_of(model.elements.begin(), model.elements.end(),
-                                   [](const fe::Element& e) { return e.free_strain != 0.0 && e.type != fe::ElementType::bar; });
+  const bool moves = std::ranges::any_of(model.prestress.loads, [](const auto& load) { return load.movement; });
+  const bool strains = std::ranges::any_of(
+      model.elements, [](const fe::Element& e) { return e.free_strain != 0.0 && e.type != fe::ElementType::bar; });
   if (model.constraints.empty() && !moves && !strains) return "";
   model.prestress.displacements = fe::Displacements::linear;
   return fmt::format(

@@ -3,10 +3,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cctype>
-#include <set>
 
 #include "core/error.hpp"
+#include "core/lists.hpp"
 #include "io/text_lines.hpp"
 
 namespace twindeck::model_io {
@@ -46,9 +47,9 @@ InpCard to_card(const std::string& text, const std::filesystem::path& file, long
 bool continues_a_card(const std::string& line) { return std::isalpha(static_cast<unsigned char>(line.front())) != 0; }
 
 bool takes_no_data(const std::string& keyword) {
-  static const std::set<std::string> bare = {"ASSEMBLY", "COUPLING", "END ASSEMBLY", "END INSTANCE", "END PART",
-                                             "END STEP", "MATERIAL", "PART",         "RIGID BODY"};
-  return bare.contains(keyword);
+  return contains(std::array{"ASSEMBLY", "COUPLING", "END ASSEMBLY", "END INSTANCE", "END PART", "END STEP", "MATERIAL", "PART",
+                             "RIGID BODY"},
+                  keyword);
 }
 
 }  // namespace
@@ -115,7 +116,7 @@ std::string InpCard::required(const std::string& parameter) const {
 
 void InpCard::allow(const std::vector<std::string>& known) const {
   for (const auto& [name, value] : parameters) {
-    if (name.empty() || std::find(known.begin(), known.end(), name) != known.end()) continue;
+    if (name.empty() || std::ranges::find(known, name) != known.end()) continue;
     fail(fmt::format("unsupported parameter {}{}", name, did_you_mean(name, known)),
          "it would change what the card means; write the model without it");
   }

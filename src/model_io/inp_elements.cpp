@@ -2,6 +2,8 @@
 
 #include <map>
 
+#include "core/lists.hpp"
+
 namespace twindeck::model_io {
 namespace {
 
@@ -54,19 +56,8 @@ std::string inp_linear_type(const std::string& type) {
   return "";
 }
 
-const std::vector<std::string>& inp_element_types() {
-  static const std::vector<std::string> names = [] {
-    std::vector<std::string> list;
-    for (const auto& [name, type] : types()) list.push_back(name);
-    return list;
-  }();
-  return names;
-}
-
-std::string inp_element_type_list() {
-  std::string list;
-  for (const auto& name : inp_element_types()) list += (list.empty() ? "" : ", ") + name;
-  return list;
+std::vector<std::string> inp_element_types() {
+  return each_of(types(), [](const auto& known) { return known.first; });
 }
 
 }  // namespace twindeck::model_io

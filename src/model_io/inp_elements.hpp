@@ -14,8 +14,7 @@ enum class InpKind { none, beam, truss, shell, solid, spring, dashpot, joint, ma
 [[nodiscard]] int inp_node_count(const std::string& type);
 /// The linear type to use in place of a quadratic one ("C3D8 (hexahedra)" for "C3D20R"); "" for any other type.
 [[nodiscard]] std::string inp_linear_type(const std::string& type);
-[[nodiscard]] const std::vector<std::string>& inp_element_types();
-/// "B31, B32 …" for messages.
-[[nodiscard]] std::string inp_element_type_list();
+/// "B31", "B32" …: the names of all types that are supported.
+[[nodiscard]] std::vector<std::string> inp_element_types();
 
 }  // namespace twindeck::model_io

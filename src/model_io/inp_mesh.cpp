@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "core/error.hpp"
+#include "core/lists.hpp"
 #include "model_io/inp_elements.hpp"
 
 namespace twindeck::model_io {
@@ -94,13 +95,12 @@ void read_inp_elements(InpParts& parts, const InpCard& card) {
     if (const std::string linear = inp_linear_type(type); !linear.empty())
       card.fail(fmt::format("{} has nodes between its corners, which is not read", type), "mesh with " + linear);
     card.fail(fmt::format("unsupported element type {}{}", type, did_you_mean(type, inp_element_types())),
-              "supported are " + inp_element_type_list());
+              fmt::format("supported are {}", fmt::join(inp_element_types(), ", ")));
   }
   const bool turns = inp_kind(type) == InpKind::beam || inp_kind(type) == InpKind::shell;
   InpElement element;
   bool open = false;
   for (const InpLine& line : card.data) {
-    const std::size_t first = open ? 0 : 1;
     if (!open)
       element = {line.integer(0) + parts.scopes[static_cast<std::size_t>(parts.scope)].element_offset,
                  parts.scope,
@@ -108,7 +108,7 @@ void read_inp_elements(InpParts& parts, const InpCard& card) {
                  {},
                  &card,
                  &line};
-    for (std::size_t i = first; i < line.fields.size(); ++i) element.nodes.push_back(parts.node_id(line, i));
+    for (std::size_t i = open ? 0 : 1; i < line.fields.size(); ++i) element.nodes.push_back(parts.node_id(line, i));
     open = static_cast<int>(element.nodes.size()) < wanted;
     if (open) continue;
     if (static_cast<int>(element.nodes.size()) > wanted) refuse_count(line, element, wanted, "check TYPE and the data line");
@@ -213,8 +213,7 @@ void InpParts::no_node(const DeckPlace& at, long id) const {
 
 const InpSet& InpParts::set(const std::map<std::string, InpSet>& sets, const DeckPlace& at, const std::string& name) const {
   if (const std::string key = find_key(sets, name); !key.empty()) return sets.at(key);
-  std::vector<std::string> known;
-  for (const auto& [key, set] : sets) known.push_back(set_name(sets, set));
+  const auto known = each_of(sets, [&](const auto& set) { return set_name(sets, set.second); });
   at.fail(fmt::format("no set is called '{}'{}", name, did_you_mean(name, known)),
           "define it by *NSET or *ELSET, or on the *NODE or *ELEMENT card");
 }
@@ -224,6 +223,11 @@ std::vector<long> InpParts::nodes_of(const InpLine& line, std::size_t field) con
     line.fail(fmt::format("field {} is missing, expected a node or a set of nodes", field + 1), "name it");
   if (is_number(line.fields[field])) return {node_id(line, field)};
   return set(node_sets, line, line.fields[field]).members;
+}
+
+std::vector<long> InpParts::elements_at(const InpLine& line) const {
+  if (is_number(line.fields[0])) return {element_id(line, 0)};
+  return set(element_sets, line, line.fields[0]).members;
 }
 
 long InpParts::named_node(const InpCard& card, const std::string& parameter) const {
@@ -247,10 +251,8 @@ Eigen::Matrix3d InpParts::axes_of(const DeckPlace& at, long id, bool whole) cons
 }
 
 const InpSet& InpParts::group_set(const InpCard& card, const InpElement& element) const {
-  const bool by_element = element.card->has("ELSET");
-  const InpCard& by = by_element ? *element.card : card;
-  if (by_element) return element_sets.at(key_in(element.scope, by.get("ELSET")));
-  return set(element_sets, by, by.get("ELSET"));
+  if (element.card->has("ELSET")) return element_sets.at(key_in(element.scope, element.card->get("ELSET")));
+  return set(element_sets, card, card.get("ELSET"));
 }
 
 std::string InpParts::group_of(const InpCard& card, const InpElement& element) const {

@@ -102,6 +102,8 @@ struct InpParts : DeckModel {
   [[nodiscard]] const InpSurface& surface(const DeckPlace& at, const std::string& name) const;
   /// A field that holds the number of a node or the name of a set of nodes.
   [[nodiscard]] std::vector<long> nodes_of(const InpLine& line, std::size_t field) const;
+  /// The first field, the number of an element or the name of a set of elements.
+  [[nodiscard]] std::vector<long> elements_at(const InpLine& line) const;
   /// Number of the one node that REF NODE= or another parameter names. @throws InputError if it names none or several
   [[nodiscard]] long named_node(const InpCard& card, const std::string& parameter) const;
   /// Position of REF NODE.

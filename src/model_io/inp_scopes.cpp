@@ -9,6 +9,7 @@
 #include <set>
 
 #include "core/error.hpp"
+#include "core/lists.hpp"
 
 namespace twindeck::model_io {
 namespace {
@@ -19,7 +20,7 @@ constexpr long largest_kept_apart = 1'000'000'000'000'000;  ///< numbers of node
 std::size_t end_of_modal_step(const InpFile& file) {
   const auto& cards = file.cards();
   const auto named = [](const char* keyword) { return [keyword](const InpCard& card) { return card.keyword == keyword; }; };
-  const auto frequency = std::find_if(cards.begin(), cards.end(), named("FREQUENCY"));
+  const auto frequency = std::ranges::find_if(cards, named("FREQUENCY"));
   const auto end = std::find_if(frequency, cards.end(), named("END STEP"));
   return static_cast<std::size_t>(end - cards.begin()) + (end == cards.end() ? 0 : 1);
 }
@@ -28,8 +29,7 @@ std::size_t end_of_modal_step(const InpFile& file) {
 void place_instance(const InpCard& card, InpScope& scope) {
   if (card.data.empty()) return;
   if (card.data.size() > 2) card.data[2].fail("a third data line is no placement", "give a translation, then a rotation");
-  const Eigen::Vector3d shift = card.data[0].vector(0);
-  scope.shift_m = shift;
+  scope.shift_m = card.data[0].vector(0);
   if (card.data.size() < 2) return;
   const InpLine& turn = card.data[1];
   const Eigen::Vector3d a = turn.vector(0), b = turn.vector(3);
@@ -38,7 +38,7 @@ void place_instance(const InpCard& card, InpScope& scope) {
     turn.fail("the two points of the axis of rotation are one", "give points a and b apart, then the angle");
   if (angle == 0.0) return;
   scope.rotation = Eigen::AngleAxisd(angle, (b - a).normalized()).toRotationMatrix();
-  scope.shift_m = a + scope.rotation * (shift - a);
+  scope.shift_m = (a + scope.rotation * (scope.shift_m - a)).eval();
 }
 
 /// Largest and smallest number in the first field of the cards of one keyword, by scope.
@@ -111,11 +111,10 @@ class Planner {
     const std::size_t end = end_of_modal_step(file_);
     for (std::size_t i = 0; i < end; ++i) take(file_.cards()[i]);
     if (open_ != nullptr) open_->fail("is not closed", "write *END " + open_->keyword);
-    for (const auto& [name, part] : parts_) {
-      if (part.used) continue;
-      plan_.notes.push_back(
-          fmt::format("part '{}' (line {}) has no instance and is left out", part.card->get("NAME"), part.card->line));
-    }
+    for (const auto& [name, part] : parts_)
+      if (!part.used)
+        plan_.notes.push_back(
+            fmt::format("part '{}' (line {}) has no instance and is left out", part.card->get("NAME"), part.card->line));
     if (end < file_.cards().size())
       plan_.notes.push_back(
           fmt::format("cards below line {}, behind the step with *FREQUENCY, are left out", file_.cards()[end - 1].line));
@@ -160,8 +159,7 @@ class Planner {
     const std::string part = card.required("PART");
     const auto found = parts_.find(upper_case(part));
     if (found == parts_.end()) {
-      std::vector<std::string> known;
-      for (const auto& [key, entry] : parts_) known.push_back(entry.card->get("NAME"));
+      const auto known = each_of(parts_, [](const auto& entry) { return entry.second.card->get("NAME"); });
       card.fail(fmt::format("no part above is called '{}'{}", part, did_you_mean(part, known)), "define it by *PART");
     }
     place_instance(card, scope);

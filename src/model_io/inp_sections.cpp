@@ -10,6 +10,7 @@
 #include <optional>
 
 #include "core/error.hpp"
+#include "core/lists.hpp"
 #include "model_io/inp_attachments.hpp"
 #include "model_io/inp_expanded_beam.hpp"
 #include "model_io/profiles.hpp"
@@ -30,8 +31,7 @@ int any_material_of(InpParts& parts, const InpCard& card) {
   const std::string name = card.required("MATERIAL");
   const auto found = parts.materials.find(upper_case(name));
   if (found == parts.materials.end()) {
-    std::vector<std::string> known;
-    for (const auto& m : parts.model.materials) known.push_back(m.name);
+    const auto known = each_of(parts.model.materials, &fe::Material::name);
     card.fail(fmt::format("material '{}' is not defined{}", name, did_you_mean(name, known)), "define it by *MATERIAL");
   }
   if (parts.model.materials[fe::slot(found->second)].youngs_modulus_Pa <= 0.0)
@@ -63,7 +63,7 @@ fe::Element to_element(InpParts& parts, const InpCard& card, const InpElement& e
   e.group = parts.group_of(card, element);
   e.material = material;
   e.section = section;
-  for (const long id : element.nodes) e.nodes.push_back(parts.node(*element.at, id));
+  e.nodes = each_of(element.nodes, [&](long id) { return parts.node(*element.at, id); });
   return e;
 }
 
@@ -175,7 +175,7 @@ void check_orientation(InpParts& parts, const InpCard& card, const fe::Element& 
 /// Whether the card's elements are B33, Euler's beam, which is rigid in shear.
 bool is_euler_beam(InpParts& parts, const InpCard& card) {
   const InpSet& set = parts.set(parts.element_sets, card, card.get("ELSET"));
-  const auto euler = std::count_if(set.members.begin(), set.members.end(), [&](long id) {
+  const auto euler = std::ranges::count_if(set.members, [&](long id) {
     const auto element = parts.elements.find(id);
     return element != parts.elements.end() && element->second.type == "B33";
   });
@@ -213,7 +213,7 @@ void assign_beam(InpParts& parts, const InpCard& card) {
 int find_or_add_material(InpParts& parts, fe::Material m) {
   const auto near = [](double a, double b) { return std::abs(a - b) <= 1e-9 * std::max(std::abs(a), std::abs(b)); };
   auto& materials = parts.model.materials;
-  const auto same = std::find_if(materials.begin(), materials.end(), [&](const fe::Material& other) {
+  const auto same = std::ranges::find_if(materials, [&](const fe::Material& other) {
     return near(other.youngs_modulus_Pa, m.youngs_modulus_Pa) && near(other.shear_modulus_Pa, m.shear_modulus_Pa) &&
            near(other.density_kg_m3, m.density_kg_m3);
   });
@@ -343,9 +343,7 @@ void read_inp_material(InpParts& parts, const InpCard& card) {
   const std::string name = card.required("NAME");
   if (!parts.materials.emplace(upper_case(name), static_cast<int>(parts.model.materials.size())).second)
     card.fail(fmt::format("material '{}' is defined twice", name), "keep one of the two");
-  fe::Material material;
-  material.name = name;
-  parts.model.materials.push_back(material);
+  parts.model.materials.push_back({.name = name});
 }
 
 void read_inp_elastic(InpParts& parts, const InpCard& card) {

@@ -3,20 +3,19 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <set>
 
+#include "core/lists.hpp"
 #include "model_io/deck_stage.hpp"
 
 namespace twindeck::model_io {
 namespace {
 
-const std::set<std::string>& load_keywords() {
-  static const std::set<std::string> names = {"CLOAD", "DLOAD", "DSLOAD", "TEMPERATURE"};
-  return names;
-}
+bool is_load(const InpCard& card) { return contains(std::array{"CLOAD", "DLOAD", "DSLOAD", "TEMPERATURE"}, card.keyword); }
 
 bool is_nonzero_boundary(const InpCard& card) {
-  return card.keyword == "BOUNDARY" && std::any_of(card.data.begin(), card.data.end(), [](const InpLine& line) {
+  return card.keyword == "BOUNDARY" && std::ranges::any_of(card.data, [](const InpLine& line) {
            return line.fields.size() > 3 && line.fields[3].find_first_of("123456789") != std::string::npos;
          });
 }
@@ -77,7 +76,7 @@ LoadsInForce lines_in_force(const InpStage& stage) {
 double amplitude_at_end(const InpFile& file, const LoadLine& load, double total_time) {
   if (!load.card->has("AMPLITUDE")) return 1.0;
   const std::string name = load.card->get("AMPLITUDE");
-  const auto found = std::find_if(file.cards().begin(), file.cards().end(), [&](const InpCard& card) {
+  const auto found = std::ranges::find_if(file.cards(), [&](const InpCard& card) {
     return card.keyword == "AMPLITUDE" && upper_case(card.get("NAME")) == upper_case(name);
   });
   if (found == file.cards().end())
@@ -137,13 +136,10 @@ class InpStageReader {
   }
 
   void close(bool strained) {
-    const auto value = [](const std::map<long, double>& of, long node, double otherwise) {
-      const auto found = of.find(node);
-      return found == of.end() ? otherwise : found->second;
-    };
     stage_.warm([&](const fe::Element&, long node, const Expansion&) {
-      const double before = value(before_, node, 0.0);
-      return value(now_, node, before) - before;
+      const auto before = before_.find(node), now = now_.find(node);
+      const double from = before == before_.end() ? 0.0 : before->second;
+      return now == now_.end() ? 0.0 : now->second - from;
     });
     stage_.close("the static step", strained);
   }
@@ -186,23 +182,18 @@ class InpStageReader {
     for (const long id : parts_.nodes_of(line, 0)) of[id] = kelvin;
   }
 
-  std::vector<long> element_ids(const InpLine& line) {
-    if (!parts_.is_number(line.fields[0])) return parts_.set(parts_.element_sets, line, line.fields[0]).members;
-    return {parts_.element_id(line, 0)};
-  }
-
   void read_stress(const InpLine& line) {
     for (std::size_t i = 2; i < line.fields.size(); ++i)
       if (line.number_or(i, 0.0) != 0.0)
         line.fail("gives stresses across the axis, which are not read", "give the axial stress alone");
-    for (const long id : element_ids(line)) stage_.strain(line, id, line.number(1), true);
+    for (const long id : parts_.elements_at(line)) stage_.strain(line, id, line.number(1), true);
   }
 
   void read_distributed(const InpLine& line) {
     const std::string label = line.word(1);
     if (label == "GRAV") return read_gravity(line);
     const double size = factor_ * line.number(2);
-    for (const long id : element_ids(line)) {
+    for (const long id : parts_.elements_at(line)) {
       if (!parts_.elements.contains(id)) line.fail(fmt::format("element {} is not defined by any *ELEMENT", id), "define it");
       if (label == "PX" || label == "PY" || label == "PZ") {
         const Eigen::Vector3d q = size * Eigen::Vector3d::Unit(label[1] - 'X');
@@ -224,11 +215,11 @@ class InpStageReader {
     const Eigen::Vector3d acceleration = size * direction.normalized();
     std::set<long> ids;
     if (!line.blank(0))
-      for (const long id : element_ids(line)) ids.insert(id);
-    bool all = true;
-    for (const auto& [id, element] : parts_.elements)
-      all =
-          all && (line.blank(0) || ids.contains(id) || (stage_.pieces(id).empty() && inp_kind(element.type) != InpKind::mass));
+      for (const long id : parts_.elements_at(line)) ids.insert(id);
+    const bool all = line.blank(0) || std::ranges::all_of(parts_.elements, [&](const auto& element) {
+                       const auto& [id, of] = element;
+                       return ids.contains(id) || (stage_.pieces(id).empty() && inp_kind(of.type) != InpKind::mass);
+                     });
     if (all) return stage_.accelerate(acceleration);
     for (const long id : ids) {
       stage_.accelerate(id, acceleration);
@@ -248,8 +239,7 @@ class InpStageReader {
       line.fail(fmt::format("load {} on surface '{}' stiffens or softens the structure and is not read", label, line.fields[0]),
                 "read are P and TRVEC (with its direction) on faces; write others as forces of nodes by *CLOAD");
     for (const InpFacet& facet : surface.facets) {
-      std::vector<int> nodes;
-      for (const long id : facet.nodes) nodes.push_back(stage_.node(line, id));
+      const auto nodes = each_of(facet.nodes, [&](long id) { return stage_.node(line, id); });
       if (traction)
         stage_.draw(nodes, direction.normalized(), size);
       else
@@ -273,7 +263,7 @@ InpStage find_inp_stage(const InpPlan& plan) {
   bool perturbation = false, loaded = false, modal = false, is_static = false;
   const auto leave = [&](const std::vector<InpReading>& readings) {
     for (const InpReading& reading : readings)
-      if (load_keywords().contains(reading.card->keyword)) stage.unused.push_back(reading.card);
+      if (is_load(*reading.card)) stage.unused.push_back(reading.card);
   };
   const auto close = [&] {
     if (opened == nullptr) return;
@@ -298,7 +288,7 @@ InpStage find_inp_stage(const InpPlan& plan) {
       if (type != "STRESS" && type != "TEMPERATURE")
         card.fail(fmt::format("TYPE={} is not read", type), "read are STRESS and TEMPERATURE");
     }
-    const bool load = load_keywords().contains(card.keyword) || is_nonzero_boundary(card);
+    const bool load = is_load(card) || is_nonzero_boundary(card);
     if (opened == nullptr) {
       leave({reading});
     } else if (load || card.keyword == "STEP" || card.keyword == "BOUNDARY" || card.keyword == "STATIC") {
@@ -306,8 +296,7 @@ InpStage find_inp_stage(const InpPlan& plan) {
     }
   }
   close();
-  for (const InpReading& reading : stage.cards)
-    loaded = loaded || load_keywords().contains(reading.card->keyword) || is_nonzero_boundary(*reading.card);
+  for (const InpReading& reading : stage.cards) loaded = loaded || is_load(*reading.card) || is_nonzero_boundary(*reading.card);
   const bool any_static = !stage.cards.empty();
   stage.asked = modal && any_static && (stage.large || perturbation) && (loaded || stressed != nullptr);
   if (stressed != nullptr && !stage.asked)
@@ -323,8 +312,7 @@ InpStage find_inp_stage(const InpPlan& plan) {
 void read_inp_stage(InpParts& parts, const InpStage& stage) {
   if (!stage.asked) return;
   const auto [lines, time] = lines_in_force(stage);
-  const bool warmed =
-      std::any_of(lines.begin(), lines.end(), [](const LoadLine& l) { return l.card->keyword == "TEMPERATURE"; });
+  const bool warmed = std::ranges::any_of(lines, [](const LoadLine& l) { return l.card->keyword == "TEMPERATURE"; });
   if (warmed && !parts.uneven_expansion.empty())
     parts.uneven_expansion.begin()->second->fail("has several values or directions, which is not read where temperatures act",
                                                  "give one coefficient of expansion");

@@ -8,6 +8,7 @@
 #include <cmath>
 
 #include "core/error.hpp"
+#include "core/lists.hpp"
 #include "model_io/deck_stage.hpp"
 #include "model_io/inp_elements.hpp"
 
@@ -25,7 +26,7 @@ InpFacet facet_of(const DeckPlace& at, const InpElement& element, const std::str
     for (const std::size_t i : solid_faces(element.nodes.size())[number]) facet.nodes.push_back(element.nodes[i]);
   } else if (kind == InpKind::shell && element.nodes.size() < 5 && (face.empty() || face == "SPOS" || face == "SNEG")) {
     facet.nodes = element.nodes;
-    if (face == "SNEG") std::reverse(facet.nodes.begin(), facet.nodes.end());
+    if (face == "SNEG") std::ranges::reverse(facet.nodes);
   } else if (kind == InpKind::shell && element.nodes.size() < 5 && numbered && face[0] == 'E' &&
              number < element.nodes.size()) {
     facet.nodes = {element.nodes[number], element.nodes[(number + 1) % element.nodes.size()]};
@@ -39,12 +40,7 @@ InpFacet facet_of(const DeckPlace& at, const InpElement& element, const std::str
 
 void add_faces(InpParts& parts, const InpLine& line, InpSurface& surface) {
   const std::string face = line.fields.size() > 1 ? line.word(1) : "";
-  std::vector<long> ids;
-  if (parts.is_number(line.fields[0]))
-    ids = {parts.element_id(line, 0)};
-  else
-    ids = parts.set(parts.element_sets, line, line.fields[0]).members;
-  for (const long id : ids) {
+  for (const long id : parts.elements_at(line)) {
     const auto element = parts.elements.find(id);
     if (element == parts.elements.end()) line.fail(fmt::format("element {} is not defined by any *ELEMENT", id), "define it");
     surface.facets.push_back(facet_of(line, element->second, face));
@@ -93,8 +89,7 @@ Eigen::Matrix<double, 3, Eigen::Dynamic> tangents(const Facet& facet, const Eige
 
 const InpSurface& InpParts::surface(const DeckPlace& at, const std::string& name) const {
   if (const std::string key = find_key(surfaces, name); !key.empty()) return surfaces.at(key);
-  std::vector<std::string> known;
-  for (const auto& [key, each] : surfaces) known.push_back(each.name);
+  const auto known = each_of(surfaces, [](const auto& each) { return each.second.name; });
   at.fail(fmt::format("no surface is called '{}'{}", name, did_you_mean(name, known)),
           at.label == "*TIE" ? "write slave, master, and define both by *SURFACE" : "define it by *SURFACE");
 }
@@ -116,7 +111,7 @@ void read_inp_surface(InpParts& parts, const InpCard& card) {
     const std::vector<long> nodes = parts.nodes_of(line, 0);
     surface.nodes.insert(surface.nodes.end(), nodes.begin(), nodes.end());
   }
-  std::sort(surface.nodes.begin(), surface.nodes.end());
+  std::ranges::sort(surface.nodes);
   surface.nodes.erase(std::unique(surface.nodes.begin(), surface.nodes.end()), surface.nodes.end());
   if (surface.nodes.empty()) card.fail("holds nothing", "name faces or nodes below it");
   if (!parts.surfaces.emplace(parts.key_here(surface.name), surface).second)

@@ -9,6 +9,7 @@
 #include <set>
 
 #include "core/error.hpp"
+#include "core/lists.hpp"
 #include "model_io/inp_surfaces.hpp"
 
 namespace twindeck::model_io {
@@ -101,7 +102,7 @@ TieCount tie_nodes(InpParts& parts, const Tie& tie, const std::vector<Facet>& fa
       continue;
     }
     const auto& [facet, foot] = *nearest;
-    if (std::find(facet->nodes.begin(), facet->nodes.end(), slave) != facet->nodes.end()) continue;  // one mesh already
+    if (contains(facet->nodes, slave)) continue;  // one mesh already
     if (followers.linked.contains(slave))
       tie.line.fail(fmt::format("slave node {} follows a link or an equation already", parts.node_name(id)),
                     "take the node out of the slave surface, or exchange slave and master");
@@ -142,7 +143,7 @@ void hold_masters(InpParts& parts) {
     for (fe::Support& support : supports) {
       const auto found = master.find(support.node);
       if (found == master.end()) continue;
-      const bool whole = std::all_of(support.fixed.begin(), support.fixed.end(), [](bool fixed) { return fixed; });
+      const bool whole = std::ranges::all_of(support.fixed, [](bool fixed) { return fixed; });
       const double apart = (parts.place(support.node) - parts.place(found->second)).norm();
       if (!whole && apart > 1e-9 * (1.0 + parts.place(support.node).norm())) continue;  // refused where links are joined
       support.node = found->second;
@@ -151,7 +152,7 @@ void hold_masters(InpParts& parts) {
   }
   std::vector<fe::Support> merged;
   for (const fe::Support& support : supports) {
-    const auto same = std::find_if(merged.begin(), merged.end(), [&](const fe::Support& s) { return s.node == support.node; });
+    const auto same = std::ranges::find(merged, support.node, &fe::Support::node);
     if (same == merged.end())
       merged.push_back(support);
     else
@@ -199,7 +200,7 @@ void add_terms(const InpParts& parts, const InpLine& line, std::size_t field, st
   const int node = parts.node(line, id), direction = line.component(field + 1);
   const Eigen::RowVector3d along = line.number(field + 2) * parts.axes_of(line, id).row(direction % 3);
   std::array<int, 3> order = {0, 1, 2};
-  std::stable_sort(order.begin(), order.end(), [&](int a, int b) { return std::abs(along[a]) > std::abs(along[b]); });
+  std::ranges::stable_sort(order, [&](int a, int b) { return std::abs(along[a]) > std::abs(along[b]); });
   for (const int d : order)
     if (d == order[0] || std::abs(along[d]) > nothing * along.norm())
       terms.push_back({node, direction - direction % 3 + d, along[d]});
@@ -223,8 +224,7 @@ void attach_inp_tie(InpParts& parts, const InpCard& card) {
     if (tie.master.facets.empty())
       line.fail(fmt::format("the master '{}' is a surface of nodes, which is not read", tie.master.name),
                 "exchange slave and master, or name the faces of elements");
-    std::vector<Facet> facets;
-    for (const InpFacet& facet : tie.master.facets) facets.push_back(make_facet(parts, line, facet));
+    const auto facets = each_of(tie.master.facets, [&](const InpFacet& facet) { return make_facet(parts, line, facet); });
     tie.tolerance = tolerance_of(parts, tie, facets);
     say_tied(parts, tie, tie_nodes(parts, tie, facets));
   }
@@ -240,18 +240,15 @@ void read_inp_equation(InpParts& parts, const InpCard& card) {
                        "give their number, then node, degree of freedom, coefficient of each");
     ++row;
     std::size_t field = 0;
-    long count = 0;
-    while (count < terms) {
+    for (long count = 0; count < terms; ++count) {
       if (row >= card.data.size())
         equation.at.fail(fmt::format("the equation ends after {} of {} terms", count, terms), "complete it");
       const InpLine& line = card.data[row];
       add_terms(parts, line, field, equation.terms);
-      ++count;
       field += 3;
-      if (field + 2 >= line.fields.size()) {
-        ++row;
-        field = 0;
-      }
+      if (field + 2 < line.fields.size()) continue;
+      ++row;
+      field = 0;
     }
     if (field != 0) ++row;
     parts.equations.push_back(equation);
@@ -286,9 +283,8 @@ void attach_inp_rigid_body(InpParts& parts, const InpCard& card) {
     const auto& members = parts.set(parts.node_sets, card, card.get(nodes)).members;
     body.insert(members.begin(), members.end());
   }
-  for (const long id : body) {
+  for (const long id : body)
     if (const int slave = parts.node(card, id); slave != master) parts.add_link(master, slave);
-  }
   if (!card.has("ROT NODE")) return;
   parts.refuse_turned(card);
   parts.turned_by[parts.named_node(card, "ROT NODE")] = {parts.model.nodes[fe::slot(master)].id, &card};
@@ -365,7 +361,7 @@ void attach_inp_kinematic_coupling(InpParts& parts, const InpCard& card) {
 
 void settle_inp_constraints(InpParts& parts) {
   hold_masters(parts);
-  std::map<int, std::array<bool, 6>> held;
+  std::map<int, Directions> held;
   for (const fe::Support& support : parts.model.supports) held[support.node] = support.fixed;
   const auto is_held = [&](int node, int direction) {
     const auto found = held.find(node);
@@ -381,8 +377,8 @@ void settle_inp_constraints(InpParts& parts) {
       origins.push_back(at);
       continue;
     }
-    const bool all_held = std::all_of(c.terms.begin(), c.terms.end(),
-                                      [&](const fe::Constraint::Term& term) { return is_held(term.node, term.direction); });
+    const bool all_held =
+        std::ranges::all_of(c.terms, [&](const fe::Constraint::Term& term) { return is_held(term.node, term.direction); });
     if (!all_held)
       at.fail(fmt::format("makes node {} follow others in degree of freedom {}, which *BOUNDARY holds",
                           parts.node_name(parts.model.nodes[static_cast<std::size_t>(c.node)].id), c.direction + 1),

@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include "core/error.hpp"
+#include "core/lists.hpp"
 #include "fe/assembly_elements.hpp"
 #include "fe/parametric_system.hpp"
 #include "io/csv.hpp"
@@ -182,8 +183,7 @@ void InpWriter::faces_and_blocks() {
   std::map<std::string, std::pair<const fe::Element*, std::vector<std::pair<long, std::vector<long>>>>> groups;
   for (const fe::Element& e : model_.elements) {
     if (e.type != fe::ElementType::shell && e.type != fe::ElementType::solid) continue;
-    std::vector<long> nodes;
-    for (const int node : e.nodes) nodes.push_back(node_id(node));
+    const auto nodes = each_of(e.nodes, [&](int node) { return node_id(node); });
     // The number of nodes is in the key because a block has one element type.
     auto& group =
         groups[fmt::format("{} of {}|{}|{}|{}", static_cast<int>(e.type), e.nodes.size(), e.group, e.section, e.material)];

@@ -6,6 +6,7 @@
 #include <algorithm>
 
 #include "core/error.hpp"
+#include "core/lists.hpp"
 #include "io/atomic.hpp"
 #include "io/csv.hpp"
 #include "model_io/deck_card.hpp"
@@ -44,11 +45,9 @@ void InpWriter::heading() {
   heading_ =
       fmt::format("*HEADING\n{}\n** SI units; written by twindeck for {}\n", model_.title.empty() ? "model" : model_.title,
                   flavour_ == InpFlavour::calculix ? "CalculiX" : "Abaqus");
-  if (!model_.monitoring_points.empty()) {
-    // One node a set: read back as monitoring points.
-    for (const auto& [name, node] : model_.monitoring_points)
-      supports_ += fmt::format("*NSET, NSET={}\n{}\n", set_name(name), node_id(node));
-  }
+  // One node a set: read back as monitoring points.
+  for (const auto& [name, node] : model_.monitoring_points)
+    supports_ += fmt::format("*NSET, NSET={}\n{}\n", set_name(name), node_id(node));
 }
 
 long InpWriter::node_id(int node) const { return model_.nodes[static_cast<std::size_t>(node)].id; }
@@ -113,7 +112,7 @@ std::string InpWriter::element_block(const std::string& type, const std::string&
 }
 
 void InpWriter::note(const std::string& sentence) {
-  if (std::find(notes_.begin(), notes_.end(), sentence) == notes_.end()) notes_.push_back(sentence);
+  if (!contains(notes_, sentence)) notes_.push_back(sentence);
 }
 
 void InpWriter::rigid_equations(long master, const Eigen::Vector3d& master_x, long slave, const Eigen::Vector3d& slave_x,
@@ -136,9 +135,9 @@ void InpWriter::links_and_supports() {
   for (const fe::RigidLink& link : model_.links) {
     const fe::Node &master = model_.nodes[static_cast<std::size_t>(link.master)],
                    &slave = model_.nodes[static_cast<std::size_t>(link.slave)];
-    const bool turns = std::any_of(model_.elements.begin(), model_.elements.end(), [&](const fe::Element& e) {
+    const bool turns = std::ranges::any_of(model_.elements, [&](const fe::Element& e) {
       const bool holds = e.type == fe::ElementType::beam || e.type == fe::ElementType::shell;
-      return holds && std::find(e.nodes.begin(), e.nodes.end(), link.slave) != e.nodes.end();
+      return holds && contains(e.nodes, link.slave);
     });
     rigid_equations(master.id, master.x_m, slave.id, slave.x_m, turns);
   }

@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "core/error.hpp"
+#include "core/lists.hpp"
 #include "io/csv.hpp"
 #include "io/spreadsheet.hpp"
 #include "model_io/names.hpp"
@@ -17,7 +18,7 @@ constexpr const char* kFile = "loads.csv";
 void check_one_of(const io::CsvTable& table, std::size_t row, const std::string& column,
                   const std::vector<std::string>& known) {
   const std::string text = table.text(row, column);
-  if (std::find(known.begin(), known.end(), text) == known.end())
+  if (!contains(known, text))
     table.fail(row, column, fmt::format("is '{}'{}", text, did_you_mean(text, known)),
                fmt::format("use {}", fmt::join(known, ", ")));
 }
@@ -65,7 +66,7 @@ std::vector<LoadEntry> read_load_cases(const std::filesystem::path& folder) {
 std::vector<std::string> load_case_names(const std::filesystem::path& folder) {
   std::vector<std::string> names;
   for (const LoadEntry& entry : read_load_cases(folder))
-    if (std::find(names.begin(), names.end(), entry.load) == names.end()) names.push_back(entry.load);
+    if (!contains(names, entry.load)) names.push_back(entry.load);
   return names;
 }
 

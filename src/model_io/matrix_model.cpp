@@ -132,11 +132,9 @@ struct LooseTerm {
 linalg::SparseMatrix union_pattern(const std::vector<LooseTerm>& terms, int n) {
   std::vector<Eigen::Triplet<double, int>> entries;
   for (int i = 0; i < n; ++i) entries.emplace_back(i, i, 0.0);
-  for (const auto& loose : terms) {
-    for (int column = 0; column < n; ++column) {
+  for (const auto& loose : terms)
+    for (int column = 0; column < n; ++column)
       for (linalg::SparseMatrix::InnerIterator e(loose.matrix, column); e; ++e) entries.emplace_back(e.row(), e.col(), 0.0);
-    }
-  }
   linalg::SparseMatrix pattern(n, n);
   pattern.setFromTriplets(entries.begin(), entries.end());
   pattern.makeCompressed();
@@ -187,11 +185,7 @@ Decomposition decompose(const fe::ParametricSystem& system, const std::vector<fe
   return result;
 }
 
-bool is_zero(const linalg::SparseMatrix& matrix) {
-  for (Eigen::Index i = 0; i < matrix.nonZeros(); ++i)
-    if (matrix.valuePtr()[i] != 0.0) return false;
-  return true;
-}
+bool is_zero(const linalg::SparseMatrix& matrix) { return matrix.coeffs().isZero(0.0); }
 
 std::string parameter_text(const fe::Parameter& p, const std::string& matrix, const char* target) {
   std::string text = fmt::format("\n[[parameter]]\nname = {}\nmatrix = {}\ntarget = \"{}\"\n", io::toml_text(p.name),
@@ -243,16 +237,13 @@ void write_matrix_model(const fe::ParametricSystem& system, const std::filesyste
   for (std::size_t p = 0; p < system.parameters.size(); ++p) {
     const auto& parameter = system.parameters[p];
     const bool in_mass = !is_zero(mass.slope[p]);
-    if (!is_zero(stiffness.slope[p]) || !in_mass) {
-      const std::string file = fmt::format("K{}.mtx", p + 1);
-      matrix_io::write_matrix_market(stiffness.slope[p], folder / file);
-      text += parameter_text(parameter, file, "stiffness");
-    }
-    if (in_mass) {
-      const std::string file = fmt::format("M{}.mtx", p + 1);
-      matrix_io::write_matrix_market(mass.slope[p], folder / file);
-      text += parameter_text(parameter, file, "mass");
-    }
+    const auto write = [&](const linalg::SparseMatrix& matrix, char letter, const char* target) {
+      const std::string file = fmt::format("{}{}.mtx", letter, p + 1);
+      matrix_io::write_matrix_market(matrix, folder / file);
+      text += parameter_text(parameter, file, target);
+    };
+    if (!is_zero(stiffness.slope[p]) || !in_mass) write(stiffness.slope[p], 'K', "stiffness");
+    if (in_mass) write(mass.slope[p], 'M', "mass");
   }
   io::write_file_atomically(folder / "model.toml", text);
 }

@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "core/error.hpp"
+#include "core/lists.hpp"
 #include "fe/validate_parts.hpp"
 #include "io/atomic.hpp"
 #include "io/csv.hpp"
@@ -172,8 +173,7 @@ std::vector<fe::Prestress::Load> loads_of_case(const std::filesystem::path& file
   for (const LoadEntry& entry : read_load_cases(file.parent_path())) {
     if (position_of(entry.load, known) < 0) known.push_back(entry.load);
     if (entry.load != name) continue;
-    const auto [node, dof] =
-        index.displacement(entry.node + ":" + direction_names()[static_cast<std::size_t>(entry.direction)]);
+    const auto [node, dof] = index.displacement(entry.node + ":" + direction_names()[fe::slot(entry.direction)]);
     if (node < 0)
       throw InputError({(file.parent_path() / "loads.csv").string(), entry.line, "node"},
                        fmt::format("'{}' is no node of the model", entry.node), "name a node of nodes.csv");
@@ -187,9 +187,7 @@ std::vector<fe::Prestress::Load> loads_of_case(const std::filesystem::path& file
 }
 
 std::string text_list(const std::vector<std::string>& texts) {
-  std::string list;
-  for (const auto& text : texts) list += (list.empty() ? "" : ", ") + io::toml_text(text);
-  return "[" + list + "]";
+  return fmt::format("[{}]", fmt::join(each_of(texts, io::toml_text), ", "));
 }
 
 fe::MatrixElement to_matrix_element(const std::filesystem::path& folder, const NameIndex& index,
@@ -230,8 +228,7 @@ fe::MatrixElement to_matrix_element(const std::filesystem::path& folder, const N
 
 /// "17:z"
 std::string displacement_name(const fe::Model& model, int node, int direction) {
-  return fmt::format("{}:{}", model.nodes[static_cast<std::size_t>(node)].id,
-                     direction_names()[static_cast<std::size_t>(direction)]);
+  return fmt::format("{}:{}", model.nodes[fe::slot(node)].id, direction_names()[fe::slot(direction)]);
 }
 
 /// The tables of model.toml; the matrices are written to matrices/<name>_K.mtx, _C.mtx, _M.mtx.
@@ -240,8 +237,7 @@ std::string write_matrix_elements(const fe::Model& model, const std::filesystem:
   if (!model.matrix_elements.empty()) std::filesystem::create_directories(folder / "matrices");
   for (const fe::MatrixElement& element : model.matrix_elements) {
     io::check_path_name(element.name, "matrix element", {model.source, 0, "matrix_element"});
-    std::vector<std::string> dofs;
-    for (const fe::MatrixElement::Dof& dof : element.dofs) dofs.push_back(displacement_name(model, dof.node, dof.direction));
+    const auto dofs = each_of(element.dofs, [&](const auto& dof) { return displacement_name(model, dof.node, dof.direction); });
     text += fmt::format("\n[[matrix_element]]\nname = {}\ngroup = {}\ndofs = {}\ninternal = {}\n", io::toml_text(element.name),
                         io::toml_text(element.group), text_list(dofs), element.internal);
     const auto write = [&](const Eigen::MatrixXd& matrix, const char* key, const char* letter) {
@@ -296,8 +292,7 @@ void read_model_toml(const std::filesystem::path& file, fe::Model& model,
 
 void write_model_toml(const fe::Model& model, const std::filesystem::path& folder) {
   const auto number = [](double value) { return io::format_number(value); };
-  std::string text;
-  text += "# SI units throughout; see nodes.csv, elements.csv and their neighbours for the parts.\n";
+  std::string text = "# SI units throughout; see nodes.csv, elements.csv and their neighbours for the parts.\n";
   text += fmt::format("title = {}\ngravity = {}\n", io::toml_text(model.title), number(model.gravity_m_s2));
   const Eigen::Vector3d& down = model.gravity_direction;
   if (down != fe::Model{}.gravity_direction)
@@ -311,8 +306,7 @@ void write_model_toml(const fe::Model& model, const std::filesystem::path& folde
       shear, beam_rotary, shell_rotary, drilling == fe::Formulation::Drilling::penalty ? "penalty" : "diagonal", number(factor),
       lumped);
   const auto& p = model.prestress;
-  std::vector<std::string> conditions;
-  for (const auto& c : p.conditions) conditions.push_back(displacement_name(model, c.node, c.dof));
+  const auto conditions = each_of(p.conditions, [&](const auto& c) { return displacement_name(model, c.node, c.dof); });
   text += fmt::format(
       "[prestress]\nrule = \"{}\"\ngeometric_stiffness = {}\nminimum_pull = {}\nridge = {}\nsite_weight = {}\ndisplacements = "
       "\"{}\"\nload_steps = {}\nconditions = {}\n",

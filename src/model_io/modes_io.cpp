@@ -118,10 +118,8 @@ modal::ModeSet read_modes(const std::filesystem::path& folder, std::vector<long>
   Eigen::Index n = 0;
   for (std::size_t row = 0; row < table.rows(); ++row) n += left_out.contains(table.text(row, "mode")) ? 0 : 1;
   modal::ModeSet modes;
-  modes.frequency_Hz.resize(n);
-  modes.frequency_std_Hz.resize(n);
-  modes.damping_ratio.resize(n);
-  modes.damping_ratio_std.resize(n);
+  for (auto* values : {&modes.frequency_Hz, &modes.frequency_std_Hz, &modes.damping_ratio, &modes.damping_ratio_std})
+    values->resize(n);
   for (std::size_t row = 0; row < table.rows(); ++row) {
     const std::string name = table.text(row, "mode");
     if (left_out.contains(name)) continue;

@@ -26,7 +26,7 @@ const std::vector<std::string>& pull_rule_names() {
 }
 
 int position_of(const std::string& name, const std::vector<std::string>& names) {
-  const auto found = std::find(names.begin(), names.end(), name);
+  const auto found = std::ranges::find(names, name);
   return found == names.end() ? -1 : static_cast<int>(found - names.begin());
 }
 

@@ -8,6 +8,7 @@
 #include <map>
 #include <set>
 
+#include "core/lists.hpp"
 #include "fe/beam_frame.hpp"
 #include "model_io/names.hpp"
 #include "model_io/nastran_properties.hpp"
@@ -37,8 +38,8 @@ void add_matrix(Parts& parts, const std::string& name, const std::vector<int>& n
   parts.model.matrix_elements.push_back(std::move(element));
 }
 
-constexpr double coincident =
-    1e-9;  ///< [-] distance of two grids over their distance from the origin: below, they are one place
+/// [-] Distance of two grids over their distance from the origin: below, they are one place.
+constexpr double coincident = 1e-9;
 
 /// An end of a scalar spring: node, direction in basic axes, whether it turns.
 struct ScalarEnd {
@@ -146,9 +147,8 @@ MassMatrix offset_mass(Parts& parts, const Card& card) {
   const double mass = card.number_or(3, 0.0);
   Eigen::Vector3d arm = card.vector(4);
   Eigen::Matrix3d inertia = symmetric<3>(card, 8);
-  for (int i = 0; i < 3; ++i) {
+  for (int i = 0; i < 3; ++i)
     for (int j = 0; j < 3; ++j) inertia(i, j) *= i == j ? 1.0 : -1.0;  // the card has the products as integrals, without sign
-  }
   const Eigen::Matrix3d axes = mass_axes(parts, card);
   inertia = (axes.transpose() * inertia * axes).eval();
   arm = (axes.transpose() * arm).eval();
@@ -176,7 +176,7 @@ std::vector<Choice> choices_of(const CaseControl::Matrices& chosen) {
   std::vector<Choice> choices;
   std::string text = chosen.text;
   std::erase(text, ' ');
-  std::replace(text.begin(), text.end(), '+', ',');
+  std::ranges::replace(text, '+', ',');
   for (const std::string& word : text.empty() ? std::vector<std::string>{} : split_at(text, ',')) {
     Choice choice;
     const std::size_t star = word.find('*');
@@ -270,8 +270,7 @@ void add_direct(Parts& parts, const CaseControl::Matrices& chosen, bool mass, st
     used.insert(choice.name);
     const Direct direct = read_direct(parts, choice.name, chosen);
     const Eigen::MatrixXd matrix = choice.factor / (mass ? parts.wtmass : 1.0) * assembled(parts, direct, chosen);
-    std::vector<int> nodes;
-    for (const long grid : direct.grids) nodes.push_back(parts.node(chosen, grid));
+    const auto nodes = each_of(direct.grids, [&](long grid) { return parts.node(chosen, grid); });
     add_matrix(parts, "dmig_" + choice.name, nodes, mass ? Eigen::MatrixXd() : matrix, mass ? matrix : Eigen::MatrixXd());
   }
 }
@@ -279,19 +278,12 @@ void add_direct(Parts& parts, const CaseControl::Matrices& chosen, bool mass, st
 }  // namespace
 
 void read_scalar_spring(Parts& parts, const Card& card) {
-  double k = 0.0;
-  std::string group = "celas2_" + card.text(0);
-  if (card.name == "CELAS1") {
-    const auto [id, constant] = parts.constant(card, parts.spring_constants, "PELAS");
-    k = constant;
-    group = fmt::format("pelas_{}", id);
-  } else {
-    k = card.number(1);
-  }
+  const bool by_property = card.name == "CELAS1";
+  const auto [id, k] = by_property ? parts.constant(card, parts.spring_constants, "PELAS") : std::pair(0L, card.number(1));
+  const std::string name = lower_case(card.name) + "_" + card.text(0), group = by_property ? fmt::format("pelas_{}", id) : name;
   ScalarEnd a = scalar_end(parts, card, 2), b = scalar_end(parts, card, 4);
   if (a.node < 0) std::swap(a, b);
   if (a.node < 0) card.fail("joins nothing: both grids are blank", "give G1 and C1");
-  const std::string name = fmt::format("{}_{}", card.name == "CELAS1" ? "celas1" : "celas2", card.text(0));
   const bool same = b.node < 0 || (a.rotation == b.rotation && (a.direction - b.direction).norm() < 1e-9);
   if (same && k >= 0.0 && a.node != b.node) {
     Eigen::Matrix3d axes = Eigen::Matrix3d::Zero();
@@ -336,14 +328,13 @@ void read_mass(Parts& parts, const Card& card) {
   const long grid = card.integer(1);
   MassMatrix m;
   if (card.name == "CONM1") {
-    const Eigen::Matrix3d axes = mass_axes(parts, card);
     MassMatrix turn = MassMatrix::Zero();
-    turn.topLeftCorner<3, 3>() = turn.bottomRightCorner<3, 3>() = axes;
+    turn.topLeftCorner<3, 3>() = turn.bottomRightCorner<3, 3>() = mass_axes(parts, card);
     m = turn.transpose() * symmetric<6>(card, 3) * turn;
   } else {
     m = offset_mass(parts, card);
   }
-  add_mass(parts, fmt::format("{}_{}", card.name == "CONM1" ? "conm1" : "conm2", card.text(0)), parts.node(card, grid), m);
+  add_mass(parts, lower_case(card.name) + "_" + card.text(0), parts.node(card, grid), m);
 }
 
 void read_scalar_mass(Parts& parts, const Card& card) {

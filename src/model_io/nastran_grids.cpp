@@ -103,7 +103,7 @@ void index_card(Parts& parts, const Card& card) {
       if (is_whole_number(card.fields[i])) parts.scalar_points.insert(card.integer(i));
   } else {
     auto& list = parts.properties[card.integer(0)];
-    if (std::any_of(list.begin(), list.end(), [&](const Card* other) { return other->name == card.name; }))
+    if (std::ranges::any_of(list, [&](const Card* other) { return other->name == card.name; }))
       card.fail("this property is defined twice", "keep one of the two cards");
     list.push_back(&card);
   }
@@ -167,7 +167,7 @@ std::vector<long> Parts::grid_list(const Card& card, std::size_t start, bool exa
     }
     if (exact && list.back() != last)
       card.fail(fmt::format("grids {} THRU {} are not all defined", first, last), "list the grids that are");
-    if (!exact && !grids.contains(first)) list.erase(std::find(list.begin(), list.end(), first));
+    if (!exact && !grids.contains(first)) list.erase(std::ranges::find(list, first));
     ++i;
   }
   return list;

@@ -127,8 +127,8 @@ struct DeckReader {
   std::size_t read_control() {
     const auto begins = [](const RawLine& line) { return upper_case(trimmed(line.text).substr(0, 5)) == "BEGIN"; };
     const auto named = [](const RawLine& line, const char* word) { return upper_case(trimmed(line.text)) == word; };
-    const auto bulk = std::find_if(lines.begin(), lines.end(), begins);
-    const auto cend = std::find_if(lines.begin(), lines.end(), [&](const RawLine& line) { return named(line, "CEND"); });
+    const auto bulk = std::ranges::find_if(lines, begins);
+    const auto cend = std::ranges::find_if(lines, [&](const RawLine& line) { return named(line, "CEND"); });
     if (bulk == lines.end()) {
       if (cend != lines.end()) fail(*cend, "CEND", "no BEGIN BULK follows", "the bulk data stand below a line BEGIN BULK");
       return 0;

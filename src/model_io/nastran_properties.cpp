@@ -208,7 +208,7 @@ std::string property_name(const Card& property) { return lower_case(property.nam
 const Card& Parts::property(const DeckPlace& element, long id, const std::vector<std::string>& kinds) const {
   if (const auto found = properties.find(id); found != properties.end())
     for (const Card* card : found->second)
-      if (std::find(kinds.begin(), kinds.end(), card->name) != kinds.end()) return *card;
+      if (std::ranges::find(kinds, card->name) != kinds.end()) return *card;
   element.fail(fmt::format("property {} is no {} of this deck", id, fmt::join(kinds, " or ")),
                "give the property, or mend its number");
 }

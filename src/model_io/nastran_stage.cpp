@@ -150,8 +150,8 @@ class StageReader {
     for (std::size_t face = 0; face < faces.size(); ++face) {
       std::vector<int> nodes;
       for (const std::size_t i : faces[face]) nodes.push_back(e.nodes[i]);
-      const auto at = std::find(nodes.begin(), nodes.end(), g1);
-      const bool has_other = std::find(nodes.begin(), nodes.end(), other) != nodes.end();
+      const auto at = std::ranges::find(nodes, g1);
+      const bool has_other = std::ranges::find(nodes, other) != nodes.end();
       if (at == nodes.end() || has_other != hexahedron) continue;
       if (hexahedron && nodes[static_cast<std::size_t>((at - nodes.begin()) + 2) % 4] != other) continue;
       return stage_.press_solid(card, id, face, p);
@@ -243,7 +243,7 @@ void read_stage(Parts& parts) {
     wanted = chosen->second;
   }
   if (!wanted) return;
-  const auto found = std::ranges::find_if(control.subcases, [&](const Subcase& subcase) { return subcase.id == *wanted; });
+  const auto found = std::ranges::find(control.subcases, *wanted, &Subcase::id);
   if (found == control.subcases.end())
     statsub.fail(fmt::format("names subcase {}, which the case control does not have", *wanted),
                  "name the static subcase whose loads act");

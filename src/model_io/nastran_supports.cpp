@@ -70,7 +70,7 @@ std::set<long> chosen_sets(Parts& parts) {
     if (card.name != "SPCADD" || chosen.count(card.integer(0)) == 0) continue;
     for (std::size_t i = 1; i < card.size(); ++i) chosen.insert(card.integer(i));
   }
-  if (control.spc && std::none_of(chosen.begin(), chosen.end(), [&](long id) { return all.contains(id); }))
+  if (control.spc && std::ranges::none_of(chosen, [&](long id) { return all.contains(id); }))
     parts.deck.whole("SPC").fail(
         fmt::format("the case control chooses the supports {}, which no SPC or SPC1 card has", *control.spc),
         "give the cards, or mend the number");
@@ -87,8 +87,7 @@ void read_support_card(Parts& parts, const Card& card) {
     if (card.blank(i)) continue;
     hold(parts, card, card.integer(i), components(card, i + 1));
     const auto& subcases = parts.deck.case_control().subcases;
-    const bool loaded =
-        std::any_of(subcases.begin(), subcases.end(), [](const Subcase& s) { return s.chosen.contains("STATSUB"); });
+    const bool loaded = std::ranges::any_of(subcases, [](const Subcase& s) { return s.chosen.contains("STATSUB"); });
     if (card.number_or(i + 2, 0.0) != 0.0 && !loaded)
       parts.note_once("prescribed displacements of SPC cards are taken as zero: they do not enter modes");
   }
@@ -102,7 +101,7 @@ void add_rigid(Parts& parts, const Card& card, long independent, long dependent)
 void read_rbar(Parts& parts, const Card& card) {
   const auto all_six = [&](std::size_t i) {
     std::string digits = card.text(i);
-    std::sort(digits.begin(), digits.end());
+    std::ranges::sort(digits);
     return digits == "123456";
   };
   const bool a_leads = all_six(3) && card.blank(4) && (card.blank(6) || all_six(6)) && card.blank(5);
@@ -179,7 +178,7 @@ void read_equation_card(Parts& parts, const Card& card) {
   Directions flags{};
   flags[static_cast<std::size_t>(component)] = true;
   const Directions basic = basic_components(parts, card, grid, flags);
-  const int direction = static_cast<int>(std::find(basic.begin(), basic.end(), true) - basic.begin());
+  const int direction = static_cast<int>(std::ranges::find(basic, true) - basic.begin());
   const double sign = parts.displacement_axes(card, grid)(component % 3, direction % 3) > 0.0 ? 1.0 : -1.0;
   fe::Constraint c{fmt::format("mpc_{}_grid_{}_{}", card.text(0), grid, component + 1), parts.node(card, grid), direction, {}};
   for (std::size_t i = 4; i < card.size(); i += i % 8 == 4 ? 5 : 3) {

@@ -79,7 +79,7 @@ double polygon_torsion(const std::vector<Eigen::Vector2d>& outline, const Moment
 
 /// Whether a wall runs into another one at a point of its end.
 bool is_joined(const Shape& shape, const Shape::Wall& wall, const Eigen::Vector2d& end) {
-  return std::any_of(shape.walls.begin(), shape.walls.end(), [&](const Shape::Wall& other) {
+  return std::ranges::any_of(shape.walls, [&](const Shape::Wall& other) {
     if (&other == &wall) return false;
     const Eigen::Vector2d along = other.to - other.from, from_middle = end - (other.from + other.to) / 2.0;
     const double length = along.norm(), s = std::abs(from_middle.dot(along)) / length,
@@ -102,10 +102,10 @@ double shear_of_walls(const Shape& shape, int direction) {
 
 /// Whether each wall has its like across the centroid: then that is the shear centre too.
 bool is_point_symmetric(const Shape& shape, const Eigen::Vector2d& centroid) {
-  return std::all_of(shape.walls.begin(), shape.walls.end(), [&](const Shape::Wall& wall) {
+  return std::ranges::all_of(shape.walls, [&](const Shape::Wall& wall) {
     const Eigen::Vector2d mirrored = 2.0 * centroid - (wall.from + wall.to) / 2.0;
     const double length = (wall.to - wall.from).norm(), beside = 1e-6 * (length + wall.thickness);
-    return std::any_of(shape.walls.begin(), shape.walls.end(), [&](const Shape::Wall& other) {
+    return std::ranges::any_of(shape.walls, [&](const Shape::Wall& other) {
       return ((other.from + other.to) / 2.0 - mirrored).norm() <= beside &&
              std::abs((other.to - other.from).norm() - length) <= beside && near(other.thickness, wall.thickness, 1e-6);
     });
@@ -243,7 +243,7 @@ ProfileSection profile_section(const Shape& shape, double nu) {
   constexpr double rounding = 1e-12;  // [-] of a product of inertia that is none
   if (std::abs(s.inertia_yz_m4) < rounding * (s.inertia_y_m4 + s.inertia_z_m4)) s.inertia_yz_m4 = 0.0;
   const std::array needed{s.inertia_y_m4, s.inertia_z_m4, s.torsion_m4, s.shear_area_y_m2, s.shear_area_z_m2};
-  profile.possible = std::all_of(needed.begin(), needed.end(), [](double x) { return std::isfinite(x) && x > 0.0; });
+  profile.possible = std::ranges::all_of(needed, [](double x) { return std::isfinite(x) && x > 0.0; });
   return profile;
 }
 
@@ -265,8 +265,7 @@ std::string note_beside(const std::string& section) {
 int find_or_add_section(std::vector<fe::Section>& sections, fe::Section section) {
   const std::string wanted = section.name;
   for (int count = 2;; ++count) {
-    const auto other =
-        std::find_if(sections.begin(), sections.end(), [&](const fe::Section& s) { return s.name == section.name; });
+    const auto other = std::ranges::find(sections, section.name, &fe::Section::name);
     if (other == sections.end()) break;
     if (numbers_of(*other) == numbers_of(section)) return static_cast<int>(other - sections.begin());
     section.name = fmt::format("{}_{}", wanted, count);

@@ -151,7 +151,7 @@ double not_negative(const io::CsvTable& table, std::size_t row, const std::strin
 /// Refuses a row that says nothing: cells that are its point and are all empty. Where one is filled, the others are 0.
 void require_one(const io::CsvTable& table, std::size_t row, const std::vector<std::string>& columns, const std::string& mend) {
   const auto is_empty = [&](const std::string& column) { return table.text(row, column).empty(); };
-  if (!std::all_of(columns.begin(), columns.end(), is_empty)) return;
+  if (!std::ranges::all_of(columns, is_empty)) return;
   table.fail(row, columns.front(), fmt::format("is empty, and so are {}", fmt::join(columns.begin() + 1, columns.end(), ", ")),
              mend);
 }

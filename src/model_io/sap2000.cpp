@@ -71,7 +71,7 @@ void add_cells(const std::string& line, SapRow& row) {
 }
 
 std::size_t SapRow::position(const std::string& key) const {
-  return static_cast<std::size_t>(std::find(keys.begin(), keys.end(), upper_case(key)) - keys.begin());
+  return static_cast<std::size_t>(std::ranges::find(keys, upper_case(key)) - keys.begin());
 }
 
 std::string SapRow::get(const std::string& key, const std::string& fallback) const {
@@ -156,7 +156,7 @@ bool says_nothing(const std::string& table) {
       "FRAME SECTION PROPERTIES 03|AREA LOADS|AREA AUTO MESH|AREA DESIGN|AREA SECTION PROPERTY DESIGN|"
       "MATERIAL LIST|MATERIAL PROPERTIES|MASSES 2|AREA EDGE|AREA LOCAL AXES",
       '|');
-  return std::any_of(starts.begin(), starts.end(), [&](const std::string& start) { return table.starts_with(start); });
+  return std::ranges::any_of(starts, [&](const std::string& start) { return table.starts_with(start); });
 }
 
 void refuse_what_is_not_carried(const SapTables& tables) {
@@ -164,10 +164,10 @@ void refuse_what_is_not_carried(const SapTables& tables) {
                                                       "SOLID ", "LINK ",  "MASS",  "CONSTRAINT",   "MATERIAL ", "NONLINEAR"};
   for (const auto& [name, rows] : tables.all()) {
     const bool of_structure =
-        std::any_of(structural.begin(), structural.end(), [&, &table = name](const auto& s) { return table.starts_with(s); });
-    const bool read = std::find(sap_tables_read().begin(), sap_tables_read().end(), name) != sap_tables_read().end();
+        std::ranges::any_of(structural, [&, &table = name](const auto& s) { return table.starts_with(s); });
+    const bool read = std::ranges::find(sap_tables_read(), name) != sap_tables_read().end();
     if (!of_structure || read || says_nothing(name)) continue;
-    const auto speaking = std::find_if(rows.begin(), rows.end(), [](const SapRow& row) { return !row.is_neutral(); });
+    const auto speaking = std::ranges::find_if(rows, [](const SapRow& row) { return !row.is_neutral(); });
     if (speaking == rows.end()) continue;
     speaking->fail("this table is not carried, and the structure would be another without it",
                    "take it out of the model, or say the same by joints, frames, areas, restraints, springs and masses");
@@ -296,8 +296,7 @@ class SapReader {
   int frame_section(const SapRow& row, const std::string& frame) {
     static const SapRow none{};
     const auto& modified = tables_.rows("FRAME PROPERTY MODIFIERS");
-    const auto found =
-        std::find_if(modified.begin(), modified.end(), [&](const SapRow& of) { return of.get("Frame") == frame; });
+    const auto found = std::ranges::find_if(modified, [&](const SapRow& of) { return of.get("Frame") == frame; });
     const SapRow& own = found == modified.end() ? none : *found;
     const auto factor = [&](const char* of_section, const char* of_frame) {
       return row.number_of(of_section, 1.0) * own.number_of(of_frame, 1.0);

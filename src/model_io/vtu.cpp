@@ -46,8 +46,8 @@ std::string names_comment(const std::string& field, const std::vector<std::strin
   // "--" and tags must not stand in a comment
   for (std::size_t i = 0; i + 1 < text.size(); ++i)
     if (text[i] == '-' && text[i + 1] == '-') text[i + 1] = '_';
-  std::replace(text.begin(), text.end(), '<', '(');
-  std::replace(text.begin(), text.end(), '>', ')');
+  std::ranges::replace(text, '<', '(');
+  std::ranges::replace(text, '>', ')');
   return fmt::format("<!-- {}: {} -->\n", field, text);
 }
 

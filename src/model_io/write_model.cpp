@@ -41,11 +41,9 @@ void write_elements(const fe::Model& model, const std::filesystem::path& folder)
   for (const fe::Element& e : model.elements) node_columns = std::max(node_columns, e.nodes.size());
   std::vector<std::string> header = {"element", "type", "name", "group", "material", "section"};
   for (std::size_t i = 1; i <= node_columns; ++i) header.push_back("node" + std::to_string(i));
-  const bool tapers =
-      std::any_of(model.elements.begin(), model.elements.end(), [](const fe::Element& e) { return e.section2 >= 0; });
+  const bool tapers = std::ranges::any_of(model.elements, [](const fe::Element& e) { return e.section2 >= 0; });
   if (tapers) header.emplace_back("section2");
-  const bool strains =
-      std::any_of(model.elements.begin(), model.elements.end(), [](const fe::Element& e) { return e.free_strain != 0.0; });
+  const bool strains = std::ranges::any_of(model.elements, [](const fe::Element& e) { return e.free_strain != 0.0; });
   for (const char* column : {"orientation_x", "orientation_y", "orientation_z", "offset1_x_m", "offset1_y_m", "offset1_z_m",
                              "offset2_x_m", "offset2_y_m", "offset2_z_m", "releases", "pull_N"})
     header.emplace_back(column);
