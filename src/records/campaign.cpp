@@ -5,10 +5,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <deque>
 #include <limits>
 #include <set>
 
 #include "core/error.hpp"
+#include "core/lists.hpp"
 #include "io/config.hpp"
 #include "io/limits.hpp"
 #include "io/regular_file.hpp"
@@ -61,27 +63,24 @@ std::vector<RecordLines> record_lines(const fs::path& file) {
 }
 
 void check_record(const Campaign& campaign, const CampaignRecord& record, const fs::path& file) {
-  std::vector<std::string> known;
-  for (const CampaignChannel& channel : campaign.channels) known.push_back(channel.name);
-  if (record.channels.empty())
-    throw InputError({file.string(), record.line_of("channels"), "channels"}, "is empty", "list the columns of the record");
+  const auto known = each_of(campaign.channels, &CampaignChannel::name);
+  const auto at = [&](const std::string& key) { return Place{file.string(), record.line_of(key), key}; };
+  if (record.channels.empty()) throw InputError(at("channels"), "is empty", "list the columns of the record");
   std::set<std::string> seen;
   for (const std::string& name : record.channels) {
-    if (std::find(known.begin(), known.end(), name) == known.end())
-      throw InputError({file.string(), record.line_of("channels"), "channels"},
-                       fmt::format("channel '{}' is not in channels.csv{}", name, did_you_mean(name, known)),
+    if (!contains(known, name))
+      throw InputError(at("channels"), fmt::format("channel '{}' is not in channels.csv{}", name, did_you_mean(name, known)),
                        "add it there, or correct the name");
-    if (!seen.insert(name).second)
-      throw InputError({file.string(), record.line_of("channels"), "channels"}, fmt::format("names '{}' twice", name), "");
+    if (!seen.insert(name).second) throw InputError(at("channels"), fmt::format("names '{}' twice", name), "");
   }
   if (!record.columns.empty() && record.columns.size() != record.channels.size())
-    throw InputError({file.string(), record.line_of("columns"), "columns"},
+    throw InputError(at("columns"),
                      fmt::format("has {} entries for {} channels", record.columns.size(), record.channels.size()),
                      "give each entry of `channels` its column in the file");
   const auto& conditions = campaign.conditions;
-  if (!conditions.empty() && std::find(conditions.begin(), conditions.end(), record.condition) == conditions.end())
+  if (!conditions.empty() && !contains(conditions, record.condition))
     throw InputError(
-        {file.string(), record.line_of("condition"), "condition"},
+        at("condition"),
         fmt::format("'{}' is no table of conditions.toml{}", record.condition, did_you_mean(record.condition, conditions)),
         "add a table [" + record.condition + "] there");
 }
@@ -133,8 +132,7 @@ std::string check_rate(const Campaign& campaign, const CampaignRecord& record, c
 
 /// What the file says of itself, for people: its notes, and the names that it was not read by.
 std::vector<std::string> notes_of(const CampaignRecord& record, const RecordInfo& info, const ColumnMatch& match) {
-  std::vector<std::string> notes;
-  for (const std::string& note : info.notes) notes.push_back(record.file.string() + ": " + note);
+  auto notes = each_of(info.notes, [&](const std::string& note) { return record.file.string() + ": " + note; });
   if (!match.warning.empty()) notes.push_back(match.warning);
   return notes;
 }
@@ -236,7 +234,7 @@ long CampaignRecord::line_of(const std::string& key) const {
 }
 
 const CampaignChannel& Campaign::channel(const std::string& name) const {
-  const auto at = std::find_if(channels.begin(), channels.end(), [&](const CampaignChannel& c) { return c.name == name; });
+  const auto at = std::ranges::find(channels, name, &CampaignChannel::name);
   TWINDECK_ASSERT(at != channels.end());
   return *at;
 }
@@ -252,17 +250,10 @@ Campaign read_campaign(const fs::path& folder) {
   campaign.conditions = condition_names(folder / "conditions.toml");
   const std::vector<RecordLines> lines = record_lines(file);
 
-  // The list is reserved, so that the fields bound to an element stay where they are.
-  std::vector<ListedRecord> raw;
-  raw.reserve(lines.size() + 1);
+  std::deque<ListedRecord> raw;  // the fields bound to an element stay where they are
   io::FieldTable fields;
   fields.tables(
-      "record",
-      [&raw] {
-        raw.push_back({});
-        return record_fields(raw.back());
-      },
-      "a record");
+      "record", [&raw] { return record_fields(raw.emplace_back()); }, "a record");
   fields.load(file);
   for (std::size_t i = 0; i < raw.size(); ++i) {
     CampaignRecord record = raw[i].record;
@@ -284,14 +275,13 @@ std::vector<RecordGroup> record_groups(const Campaign& campaign, const RecordCho
   std::set<std::string> there;
   for (const CampaignRecord& record : campaign.records) {
     there.insert(fmt::format("{}/{}/{}", record.setup, record.condition, record.kind));
-    const bool fits =
-        (choice.setup.empty() || record.setup == choice.setup) &&
-        (choice.condition.empty() || record.condition == choice.condition) &&
-        (choice.kind.empty() || record.kind == choice.kind) &&
-        (choice.setups.empty() || std::find(choice.setups.begin(), choice.setups.end(), record.setup) != choice.setups.end());
+    const bool fits = (choice.setup.empty() || record.setup == choice.setup) &&
+                      (choice.condition.empty() || record.condition == choice.condition) &&
+                      (choice.kind.empty() || record.kind == choice.kind) &&
+                      (choice.setups.empty() || contains(choice.setups, record.setup));
     if (!fits) continue;
-    auto group = std::find_if(groups.begin(), groups.end(),
-                              [&](const RecordGroup& g) { return g.setup == record.setup && g.condition == record.condition; });
+    auto group = std::ranges::find_if(
+        groups, [&](const RecordGroup& g) { return g.setup == record.setup && g.condition == record.condition; });
     if (group == groups.end()) group = groups.insert(groups.end(), {record.setup, record.condition, {}});
     if (!group->records.empty()) {
       const CampaignRecord& first = group->records.front();
@@ -311,9 +301,9 @@ std::vector<RecordGroup> record_groups(const Campaign& campaign, const RecordCho
   // Conditions stay together, in the order in which they first appear.
   std::vector<std::string> order;
   for (const RecordGroup& group : groups)
-    if (std::find(order.begin(), order.end(), group.condition) == order.end()) order.push_back(group.condition);
-  std::stable_sort(groups.begin(), groups.end(), [&](const RecordGroup& a, const RecordGroup& b) {
-    return std::find(order.begin(), order.end(), a.condition) < std::find(order.begin(), order.end(), b.condition);
+    if (!contains(order, group.condition)) order.push_back(group.condition);
+  std::ranges::stable_sort(groups, [&](const RecordGroup& a, const RecordGroup& b) {
+    return std::ranges::find(order, a.condition) < std::ranges::find(order, b.condition);
   });
   return groups;
 }

@@ -9,6 +9,7 @@
 #include <set>
 
 #include "core/error.hpp"
+#include "core/lists.hpp"
 #include "io/csv.hpp"
 #include "io/path_name.hpp"
 #include "records/recorded_unit.hpp"
@@ -27,7 +28,7 @@ constexpr double kLargestCalibration = 3.1;
 std::string one_of(const io::CsvTable& table, std::size_t row, const std::string& column,
                    const std::vector<std::string>& allowed) {
   const std::string text = table.text(row, column).empty() ? allowed.front() : table.text(row, column);
-  if (std::find(allowed.begin(), allowed.end(), text) == allowed.end())
+  if (!contains(allowed, text))
     table.fail(row, column, fmt::format("is '{}', expected {}{}", text, fmt::join(allowed, ", "), did_you_mean(text, allowed)));
   return text;
 }

@@ -7,6 +7,7 @@
 #include <iterator>
 
 #include "core/error.hpp"
+#include "core/lists.hpp"
 #include "io/letters.hpp"
 #include "records/text_cells.hpp"
 
@@ -17,12 +18,6 @@ namespace {
 
 constexpr const char* kByKey =
     "say which column is which by `columns` in its [[record]] of campaign.toml, one entry for each of `channels`";
-
-std::vector<std::string> names_of(const RecordInfo& info) {
-  std::vector<std::string> names;
-  for (const ChannelInfo& channel : info.channels) names.push_back(channel.name);
-  return names;
-}
 
 /// Letters and digits in lower case: "Acc 1", "ACC_1" and "acc1" are one name.
 std::string folded(const std::string& name) {
@@ -37,7 +32,7 @@ Index only_one(const RecordInfo& info, const Same& same) {
   Index found = -1;
   for (std::size_t c = 0; c < info.channels.size(); ++c) {
     const std::vector<std::string>& more = info.channels[c].other_names;
-    if (!same(info.channels[c].name) && std::none_of(more.begin(), more.end(), same)) continue;
+    if (!same(info.channels[c].name) && std::ranges::none_of(more, same)) continue;
     if (found >= 0) return -1;
     found = static_cast<Index>(c);
   }
@@ -53,7 +48,7 @@ ColumnMatch by_other_names(const RecordInfo& info, const std::vector<std::string
   for (const std::string& name : channels) {
     Index at = only_one(info, [&](const std::string& other) { return other == name; });
     if (at < 0) at = only_one(info, [&](const std::string& other) { return folded(other) == folded(name); });
-    if (at < 0 || std::find(match.columns.begin(), match.columns.end(), at) != match.columns.end()) return {};
+    if (at < 0 || contains(match.columns, at)) return {};
     match.columns.push_back(at);
     const std::string& own = info.channels[static_cast<std::size_t>(at)].name;
     if (own != name) pairs.push_back(fmt::format("{} is its '{}'", name, own));
@@ -66,7 +61,7 @@ ColumnMatch by_other_names(const RecordInfo& info, const std::vector<std::string
 
 /// Position of the only channel of that name, or -1. @throws InputError  if there are several
 Index position_of(const std::vector<std::string>& names, const std::string& name, const std::filesystem::path& file) {
-  const auto at = std::find(names.begin(), names.end(), name);
+  const auto at = std::ranges::find(names, name);
   if (at == names.end()) return -1;
   if (std::find(at + 1, names.end(), name) != names.end())
     throw InputError({file.string(), 0, name}, "names two columns of the file",
@@ -84,13 +79,12 @@ Index column_number(const std::string& text) {
 
 /// The columns that campaign.toml states.
 ColumnMatch by_key(const RecordInfo& info, const std::vector<std::string>& columns, const std::filesystem::path& file) {
-  const std::vector<std::string> names = names_of(info);
+  const std::vector<std::string> names = each_of(info.channels, &ChannelInfo::name);
   ColumnMatch match;
   for (const std::string& column : columns) {
     Index at = position_of(names, column, file);
     if (const Index number = column_number(column); at < 0 && number > 0) {
-      const auto found =
-          std::find_if(info.channels.begin(), info.channels.end(), [&](const ChannelInfo& c) { return c.position == number; });
+      const auto found = std::ranges::find(info.channels, number, &ChannelInfo::position);
       if (found == info.channels.end())
         throw InputError({file.string(), 0, column},
                          fmt::format("is no channel of the file, which has columns {} to {}", info.channels.front().position,
@@ -108,7 +102,7 @@ ColumnMatch by_key(const RecordInfo& info, const std::vector<std::string>& colum
 
 /// What the file has for names, for messages.
 std::string its_names(const RecordInfo& info) {
-  return info.names_channels ? fmt::format("it has {}", fmt::join(names_of(info), ", "))
+  return info.names_channels ? fmt::format("it has {}", fmt::join(each_of(info.channels, &ChannelInfo::name), ", "))
                              : std::string("it has no line of names");
 }
 
@@ -118,7 +112,7 @@ ColumnMatch match_columns(const RecordInfo& info, const std::vector<std::string>
                           const std::vector<std::string>& columns, const std::filesystem::path& file) {
   if (info.channels.empty()) throw InputError({file.string(), 0, ""}, "holds no time series", "give the file with the samples");
   if (!columns.empty()) return by_key(info, columns, file);
-  const std::vector<std::string> names = names_of(info);
+  const std::vector<std::string> names = each_of(info.channels, &ChannelInfo::name);
   ColumnMatch match;
   std::string missing, misplaced;
   for (const std::string& name : channels) {
@@ -126,7 +120,7 @@ ColumnMatch match_columns(const RecordInfo& info, const std::vector<std::string>
     if (at >= 0) match.columns.push_back(at);
     if (at < 0 && missing.empty()) missing = name;
     const auto& line = info.unaligned_header;
-    if (at < 0 && misplaced.empty() && std::find(line.begin(), line.end(), name) != line.end()) misplaced = name;
+    if (at < 0 && misplaced.empty() && contains(line, name)) misplaced = name;
   }
   if (match.columns.size() == channels.size()) return match;
   if (ColumnMatch other = by_other_names(info, channels, file); !other.columns.empty()) return other;
@@ -137,8 +131,7 @@ ColumnMatch match_columns(const RecordInfo& info, const std::vector<std::string>
         "give each column a name");
   if (!match.columns.empty()) {
     std::vector<std::string> left;  // names that are not already somebody else's
-    std::copy_if(names.begin(), names.end(), std::back_inserter(left),
-                 [&](const std::string& name) { return std::find(channels.begin(), channels.end(), name) == channels.end(); });
+    std::ranges::copy_if(names, std::back_inserter(left), [&](const std::string& name) { return !contains(channels, name); });
     throw InputError({file.string(), 0, missing},
                      "is no channel of the file, which names others that were asked for" + did_you_mean(missing, left),
                      fmt::format("correct `channels` in campaign.toml; the file has {}", fmt::join(names, ", ")));

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/lists.hpp"
 #include "io/toml_value.hpp"
 
 namespace twindeck::records {
@@ -28,7 +29,7 @@ double factor_of(const io::TomlEntry& entry, const Place& place) {
 }
 
 Action action_of(const std::string& text, const Place& place) {
-  const auto at = std::find(action_names().begin(), action_names().end(), text);
+  const auto at = std::ranges::find(action_names(), text);
   if (at == action_names().end())
     throw InputError(place, fmt::format("'{}' is no action{}", text, did_you_mean(text, action_names())),
                      fmt::format("use one of {}", fmt::join(action_names(), ", ")));
@@ -174,7 +175,7 @@ void refuse_unknown_channels(const std::vector<Correction>& corrections, const s
                              const std::string& source) {
   for (const Correction& c : corrections) {
     for (const std::string* name : {&c.channel, &c.with}) {
-      if ((name == &c.with && c.action != Action::exchange) || std::ranges::find(known, *name) != known.end()) continue;
+      if ((name == &c.with && c.action != Action::exchange) || contains(known, *name)) continue;
       throw InputError({c.place.file, c.place.line, name == &c.with ? "with" : "channel"},
                        fmt::format("'{}' is no channel of {}{}", *name, source, did_you_mean(*name, known)),
                        known.empty() ? "there are no channels, so that nothing can be corrected"
@@ -215,21 +216,18 @@ void correct(const std::vector<Correction>& corrections, std::vector<MeasuredCon
 
 void correct(const std::vector<Correction>& corrections, modal::ModeSet& modes, const std::string& source) {
   if (corrections.empty()) return;
-  std::vector<std::string> names;
-  for (const modal::ShapeDof& dof : modes.dofs) names.push_back(dof.direction);
+  const auto names = each_of(modes.dofs, &modal::ShapeDof::direction);
   refuse_unknown_channels(corrections, names, source);
-  for (const Correction& c : corrections) {
+  for (const Correction& c : corrections)
     for (const std::string& name : {c.channel, c.with})
-      if (std::count(names.begin(), names.end(), name) > 1)
+      if (std::ranges::count(names, name) > 1)
         throw InputError({c.place.file, c.place.line, "channel"},
                          fmt::format("'{}' stands at several points of {}", name, source),
                          "name the channel as the direction of its rows in shapes.csv");
-  }
   const Eigen::MatrixXcd recorded = modes.shapes;
   for (std::size_t i = 0; i < names.size(); ++i) {
     const CorrectedChannel now = corrected(corrections, names[i]);
-    const auto to =
-        now.name == names[i] ? i : static_cast<std::size_t>(std::find(names.begin(), names.end(), now.name) - names.begin());
+    const auto to = now.name == names[i] ? i : static_cast<std::size_t>(std::ranges::find(names, now.name) - names.begin());
     modes.shapes.row(static_cast<Index>(to)) = now.factor * recorded.row(static_cast<Index>(i));
   }
 }

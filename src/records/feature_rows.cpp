@@ -8,6 +8,7 @@
 #include <map>
 
 #include "core/error.hpp"
+#include "core/lists.hpp"
 #include "io/npy.hpp"
 #include "matching/mode_name.hpp"
 
@@ -17,8 +18,8 @@ namespace {
 constexpr double highest_frequency_Hz = 1e6;  ///< far above what any structure is tested at; its square is a harmless number
 constexpr double critical_damping_pct = 100.0;
 constexpr double largest_value = 1e15;  ///< [SI] of any row: beyond it products of a few values leave the range of doubles
-constexpr double least_relative_std =
-    1e-12;  ///< [-] nothing is measured to twelve digits, and weights are squares of its inverse
+/// [-] Nothing is measured to twelve digits, and weights are squares of its inverse.
+constexpr double least_relative_std = 1e-12;
 
 bool is_frequency(const FeatureRow& row) { return row.type == "frequency_Hz" || row.type == "stay_frequency_Hz"; }
 
@@ -29,10 +30,9 @@ template <class Part>
 const Part& named(const io::CsvTable& table, std::size_t at, const std::string& column, const std::vector<Part>& parts,
                   const std::string& file) {
   const std::string text = table.text(at, column);
-  const auto found = std::find_if(parts.begin(), parts.end(), [&](const Part& part) { return part.name == text; });
+  const auto found = std::ranges::find(parts, text, &Part::name);
   if (found != parts.end()) return *found;
-  std::vector<std::string> names;
-  for (const Part& part : parts) names.push_back(part.name);
+  const auto names = each_of(parts, &Part::name);
   table.fail(at, column, fmt::format("{} '{}' is not in {}{}", column, text, file, did_you_mean(text, names)),
              "add it there, or mend the name");
 }
@@ -82,8 +82,7 @@ std::string read_mode(const io::CsvTable& table, std::size_t at, const FeatureRo
 /// A load test's row needs a channel that can show it.
 void check_gauge(const io::CsvTable& table, std::size_t at, const FeatureRow& row,
                  const std::vector<matching::Channel>& channels) {
-  const auto channel =
-      std::find_if(channels.begin(), channels.end(), [&](const matching::Channel& c) { return c.name == row.channel; });
+  const auto channel = std::ranges::find(channels, row.channel, &matching::Channel::name);
   const std::string needed = row.type == "static_strain"    ? "an element"
                              : row.type == "static_force_N" ? "a support"
                                                             : "a point";
@@ -103,7 +102,7 @@ FeatureRow read_row(const io::CsvTable& table, std::size_t at, const std::vector
   row.line = table.line(at);
   row.type = table.text(at, "type");
   const std::vector<std::string>& types = feature_types();
-  if (std::find(types.begin(), types.end(), row.type) == types.end())
+  if (!contains(types, row.type))
     table.fail(at, "type", fmt::format("'{}' is not a known type of row{}", row.type, did_you_mean(row.type, types)),
                fmt::format("use {}", fmt::join(types, ", ")));
   row.mode = read_mode(table, at, row);

@@ -30,7 +30,7 @@ template <typename Number>
 Number number_at(const char* at, bool swapped) {
   std::array<char, sizeof(Number)> bytes{};
   std::memcpy(bytes.data(), at, sizeof(Number));
-  if (swapped) std::reverse(bytes.begin(), bytes.end());
+  if (swapped) std::ranges::reverse(bytes);
   return std::bit_cast<Number>(bytes);
 }
 
@@ -194,19 +194,16 @@ class Variable {
   void matrix(std::uint64_t end, const std::string& outer, int depth, CellTexts* texts) {
     if (texts != nullptr) texts->all = texts->all && source_.position() < end;
     if (source_.position() >= end) return;  // an empty field or cell
-    const Tag flags_tag = tag();
-    const std::string flags = data(flags_tag, end, 8);
+    const std::string flags = data(tag(), end, 8);
     if (flags.size() != 8) fail("has a damaged header");
     const std::uint32_t kind = word_of(flags, 0) & 0xFFU;
     if (kind == 0 || kind > kLastNumber) {  // objects and functions are laid out in another way
       if (texts != nullptr) texts->all = false;
       return skip_to(end);
     }
-    const Tag dimensions_tag = tag();
-    const std::string dimensions = data(dimensions_tag, end, 4 * kMostDimensions);
+    const std::string dimensions = data(tag(), end, 4 * kMostDimensions);
     if (dimensions.size() < 8 || dimensions.size() % 4 != 0) fail("has a damaged header");
-    const Tag name_tag = tag();
-    const std::string own = data(name_tag, end, kLongestName), name = outer.empty() ? own : outer;
+    const std::string own = data(tag(), end, kLongestName), name = outer.empty() ? own : outer;
     // Dimensions of length 1 are none.
     std::vector<std::uint64_t> lengths;
     for (std::size_t k = 0; k < dimensions.size() / 4; ++k)
@@ -244,12 +241,10 @@ class Variable {
 
   void fields(std::uint64_t end, const std::string& name, int depth) {
     part_.alone = false;
-    const Tag width_tag = tag();
-    const std::string width_data = data(width_tag, end, 4);
+    const std::string width_data = data(tag(), end, 4);
     if (width_data.size() != 4) fail("has a damaged list of fields");
     const std::size_t width = word_of(width_data, 0);
-    const Tag list_tag = tag();
-    const std::string list = data(list_tag, end, kLongestFieldList);
+    const std::string list = data(tag(), end, kLongestFieldList);
     if (width == 0 || width > kLongestName || list.size() % width != 0) fail("has a damaged list of fields");
     for (std::size_t at = 0; at < list.size(); at += width) {
       const std::string field = list.substr(at, std::min(list.substr(at, width).find('\0'), width));
@@ -281,10 +276,7 @@ class Variable {
   }
 
   void numbers(std::uint64_t end, const std::string& name, std::uint64_t rows, std::uint64_t columns, bool complex) {
-    if (complex) {
-      mat_.notes.push_back(fmt::format("'{}' is complex", name));
-      return;
-    }
+    if (complex) return mat_.notes.push_back(fmt::format("'{}' is complex", name));
     if (rows == 0 || columns == 0) return;
     const Tag values = tag();
     require_within(values, end);

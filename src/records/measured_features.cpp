@@ -7,6 +7,7 @@
 #include <map>
 
 #include "core/error.hpp"
+#include "core/lists.hpp"
 #include "io/csv.hpp"
 #include "io/spreadsheet.hpp"
 #include "matching/mode_name.hpp"
@@ -17,12 +18,6 @@ namespace twindeck::records {
 namespace {
 
 using Eigen::Index;
-
-std::vector<std::string> names_of(const std::vector<matching::Channel>& channels) {
-  std::vector<std::string> names;
-  for (const matching::Channel& channel : channels) names.push_back(channel.name);
-  return names;
-}
 
 /// What rows.csv says of one mode.
 struct MeasuredMode {
@@ -60,7 +55,7 @@ matching::Measured assemble_measured(const io::CsvTable& table, const std::vecto
   modes.frequency_Hz = modes.frequency_std_Hz = modes.damping_ratio = modes.damping_ratio_std = Eigen::VectorXd(n);
   std::vector<const matching::Channel*> used;
   for (const matching::Channel& channel : channels)
-    if (std::any_of(found.begin(), found.end(), [&](const auto& mode) { return mode.second.shape.contains(channel.name); }))
+    if (std::ranges::any_of(found, [&](const auto& mode) { return mode.second.shape.contains(channel.name); }))
       used.push_back(&channel);
   for (const matching::Channel* channel : used)
     modes.dofs.push_back({channel->point.empty() ? channel->name : channel->point, channel->name});
@@ -96,13 +91,12 @@ void take_rows(const FeatureRows& read, const std::vector<std::size_t>& entered,
     if (row.type == "damping_ratio_pct") continue;
     const auto& names = measured.modes.names;
     matching::MeasuredRow& taken = measured.rows.emplace_back();
-    taken.mode = std::find(names.begin(), names.end(), row.mode) - names.begin();
+    taken.mode = std::ranges::find(names, row.mode) - names.begin();
     taken.imaginary = row.type == "shape_imag";
     taken.value = row.value;
     if (row.is_shape()) {
       const auto& dofs = measured.modes.dofs;
-      taken.dof =
-          std::find_if(dofs.begin(), dofs.end(), [&](const auto& dof) { return dof.direction == row.channel; }) - dofs.begin();
+      taken.dof = std::ranges::find(dofs, row.channel, &modal::ShapeDof::direction) - dofs.begin();
     }
     at.push_back(static_cast<Index>(r));
   }
@@ -126,7 +120,7 @@ matching::Measured read_measured_features(const std::filesystem::path& folder, c
   std::vector<matching::Channel> channels;
   if (io::has_table(folder / "channels.csv")) channels = read_channels(folder / "channels.csv");
   FeatureRows read = read_feature_rows(folder, conditions, channels);
-  refuse_unknown_channels(choice.corrections, names_of(channels), (folder / "channels.csv").string());
+  refuse_unknown_channels(choice.corrections, each_of(channels, &matching::Channel::name), (folder / "channels.csv").string());
   correct(choice.corrections, read);
 
   std::map<std::string, MeasuredMode> found;

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "core/error.hpp"
+#include "core/lists.hpp"
 #include "io/csv.hpp"
 #include "io/path_name.hpp"
 #include "io/toml_value.hpp"
@@ -19,12 +20,6 @@ constexpr double absolute_zero_C = -273.15;
 /// Asphalt and dark steel in the sun reach 70 to 80 degrees. Kelvin, of a frost of -20 on, are far above.
 constexpr double hottest_C = 150.0;
 constexpr const char* reference_state = "reference";  ///< of a condition that names none
-
-std::vector<std::string> names_of(const std::vector<MeasuredCondition>& conditions) {
-  std::vector<std::string> names;
-  for (const MeasuredCondition& condition : conditions) names.push_back(condition.name);
-  return names;
-}
 
 double finite_number(const io::TomlEntry& entry, const Place& place) {
   const auto value = io::number_of(entry.value);
@@ -84,13 +79,9 @@ void enter_key(const io::TomlEntry& entry, const Place& place, MeasuredCondition
   }
 }
 
-}  // namespace
-
-namespace {
-
 void check_word(const io::CsvTable& table, std::size_t row, const std::string& column, const std::vector<std::string>& known) {
   const std::string text = table.text(row, column);
-  if (text.empty() || std::find(known.begin(), known.end(), text) != known.end()) return;
+  if (text.empty() || contains(known, text)) return;
   table.fail(row, column, fmt::format("is '{}'{}", text, did_you_mean(text, known)),
              fmt::format("use one of {}, or leave the cell empty", fmt::join(known, ", ")));
 }
@@ -196,11 +187,11 @@ std::vector<MeasuredCondition> read_conditions(const std::filesystem::path& file
 std::vector<std::string> states_of(const std::vector<MeasuredCondition>& conditions) {
   std::vector<const MeasuredCondition*> in_file;
   for (const MeasuredCondition& condition : conditions) in_file.push_back(&condition);
-  std::stable_sort(in_file.begin(), in_file.end(), [](const auto* a, const auto* b) { return a->line < b->line; });
+  std::ranges::stable_sort(in_file, [](const auto* a, const auto* b) { return a->line < b->line; });
   std::vector<std::string> states;
   for (const MeasuredCondition* condition : in_file)
-    if (std::find(states.begin(), states.end(), condition->state) == states.end()) states.push_back(condition->state);
-  const auto reference = std::find(states.begin(), states.end(), reference_state);
+    if (!contains(states, condition->state)) states.push_back(condition->state);
+  const auto reference = std::ranges::find(states, reference_state);
   if (reference != states.end()) std::rotate(states.begin(), reference, reference + 1);
   return states;
 }
@@ -208,11 +199,11 @@ std::vector<std::string> states_of(const std::vector<MeasuredCondition>& conditi
 std::vector<MeasuredCondition> chosen_conditions(const std::filesystem::path& file,
                                                  const std::vector<MeasuredCondition>& conditions,
                                                  const ConditionChoice& choice) {
-  const std::vector<std::string> states = states_of(conditions), names = names_of(conditions);
-  if (!choice.state.empty() && std::find(states.begin(), states.end(), choice.state) == states.end())
+  const std::vector<std::string> states = states_of(conditions), names = each_of(conditions, &MeasuredCondition::name);
+  if (!choice.state.empty() && !contains(states, choice.state))
     throw InputError({file.string(), 0, choice.state}, "is no state of this file" + did_you_mean(choice.state, states),
                      fmt::format("it has {}: give one of them as --state", fmt::join(states, ", ")));
-  if (!choice.condition.empty() && std::find(names.begin(), names.end(), choice.condition) == names.end())
+  if (!choice.condition.empty() && !contains(names, choice.condition))
     throw InputError(
         {file.string(), 0, choice.condition}, "is no condition of this file" + did_you_mean(choice.condition, names),
         fmt::format("it has {}: give one of them as --condition, or in the key `condition`", fmt::join(names, ", ")));

@@ -349,11 +349,10 @@ bool StampedRows::runs_like_time(bool evenly) const {
 }
 
 double StampedRows::likely_unit_s(double step, double first) {
-  constexpr double slowest = 1.0, fastest = 1e5;         // [Hz] of records of vibration
-  constexpr double tick = 1e-7;                          // [s]
-  for (const double year_1990 : {6.278e17, 1.228e17}) {  // [ticks] since 0001 and 1601; a century more is the same digits
+  constexpr double slowest = 1.0, fastest = 1e5;       // [Hz] of records of vibration
+  constexpr double tick = 1e-7;                        // [s]
+  for (const double year_1990 : {6.278e17, 1.228e17})  // [ticks] since 0001 and 1601; a century more is the same digits
     if (first > year_1990 && first < year_1990 + 3.2e16) return tick;
-  }
   for (const double unit : {1.0, 1e-3, 1e-6, 1e-9, 86400.0}) {
     const double rate = 1.0 / (step * unit);
     if (rate >= slowest * (1.0 - 1e-3) && rate <= fastest) return unit;
@@ -394,8 +393,8 @@ RecordClock StampedRows::clock(double unit_s) const {
   if (found.changes_rate >= 0 || has_other_rate(s)) found.changes_rate = other_rate_from(s);
   const double tolerance = std::max(s.step, kNoise * line.scatter);
   for (std::size_t k = 1; k < n && found.steps_back < 0; ++k) {
-    const bool told = std::any_of(found.gaps.begin(), found.gaps.end(),
-                                  [&](const ClockGap& gap) { return gap.samples < 0 && gap.row == stamps_[k].row; });
+    const bool told =
+        std::ranges::any_of(found.gaps, [&](const ClockGap& gap) { return gap.samples < 0 && gap.row == stamps_[k].row; });
     if (!told && s.time[k] < s.time[k - 1] - tolerance) found.steps_back = stamps_[k].row;
   }
   const double unit = unit_s > 0.0 ? unit_s : likely_unit_s(line.slope, stamps_.front().time);

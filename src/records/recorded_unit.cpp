@@ -1,6 +1,7 @@
 #include "records/recorded_unit.hpp"
 
-#include <array>
+#include <string_view>
+#include <utility>
 
 #include "io/letters.hpp"
 #include "records/text_cells.hpp"
@@ -10,17 +11,9 @@ namespace {
 
 /// Lower case without blanks and brackets; µ, ², ° in any spelling as u, 2, deg.
 std::string plain(const std::string& unit) {
-  static const std::array<std::pair<std::string, std::string>, 11> spellings = {{{"\xC2\xB5", "u"},
-                                                                                 {"\xCE\xBC", "u"},
-                                                                                 {"\xC2\xB2", "2"},
-                                                                                 {"\xC2\xB0", "deg"},
-                                                                                 {"**", ""},
-                                                                                 {"^", ""},
-                                                                                 {" ", ""},
-                                                                                 {"[", ""},
-                                                                                 {"]", ""},
-                                                                                 {"(", ""},
-                                                                                 {")", ""}}};
+  static constexpr std::pair<std::string_view, std::string_view> spellings[] = {
+      {"\xC2\xB5", "u"}, {"\xCE\xBC", "u"}, {"\xC2\xB2", "2"}, {"\xC2\xB0", "deg"}, {"**", ""}, {"^", ""},
+      {" ", ""},         {"[", ""},         {"]", ""},         {"(", ""},           {")", ""}};
   constexpr std::size_t longest = 40;  // bytes; no unit is as long
   if (unit.size() > longest) return "";
   std::string text = unit;
@@ -90,9 +83,6 @@ std::vector<std::string> units_of(const std::string& quantity) {
   return {"V", "mV", "counts"};
 }
 
-double si_factor(const std::string& unit) {
-  const auto known = recorded_unit(unit);
-  return known ? known->si_factor : 0.0;
-}
+double si_factor(const std::string& unit) { return recorded_unit(unit).value_or(RecordedUnit{}).si_factor; }
 
 }  // namespace twindeck::records

@@ -240,7 +240,7 @@ std::vector<std::string> texts_of(hid_t file, const std::string& name) {
 
 /// Name as a person of that program calls it: "run.acc" of the structure `run` in MATLAB.
 std::string called(std::string name, bool matlab) {
-  if (matlab) std::replace(name.begin(), name.end(), '/', '.');
+  if (matlab) std::ranges::replace(name, '/', '.');
   return name;
 }
 

@@ -6,6 +6,7 @@
 #include <functional>
 
 #include "core/error.hpp"
+#include "core/lists.hpp"
 #include "records/array_choice.hpp"
 #include "records/mat_file.hpp"
 #include "records/time_columns.hpp"
@@ -43,8 +44,7 @@ void visit_matrix(const MatFile& mat, const MatArray& array, bool transposed, co
 
 RecordInfo scan_mat(const fs::path& file, const Visitor& visit) {
   const MatFile mat = read_mat_contents(file);
-  std::vector<NamedArray> shapes;
-  for (const MatArray& array : mat.arrays) shapes.push_back(array.shape);
+  const auto shapes = each_of(mat.arrays, &MatArray::shape);
   const ArrayChoice choice = choose_arrays(shapes, mat.notes, file.string());
   const NamedArray& first = shapes[choice.data.front()];
   const bool matrix = choice.data.size() == 1;
@@ -59,10 +59,9 @@ RecordInfo scan_mat(const fs::path& file, const Visitor& visit) {
 
   TimeColumns time_columns(visit, channels);
   if (matrix) visit_matrix(mat, mat.arrays[choice.data.front()], choice.transposed, std::ref(time_columns));
-  for (std::size_t c = 0; c < choice.data.size() && !matrix; ++c) {
+  for (std::size_t c = 0; c < choice.data.size() && !matrix; ++c)
     visit_values(mat, mat.arrays[choice.data[c]], kValues,
                  [&](Index sample, const Eigen::VectorXd& values) { time_columns(sample, static_cast<Index>(c), values); });
-  }
   time_columns.finish(info);
   for (const auto& texts : mat.texts) name_channels(texts, channels, info);
   read_rates(

@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "core/error.hpp"
+#include "core/lists.hpp"
 #include "io/text_lines.hpp"
 #include "records/take_clock.hpp"
 #include "records/text_cells.hpp"
@@ -79,7 +80,7 @@ class RowTime {
 std::vector<std::size_t> channel_columns(const TextLayout& layout) {
   std::vector<std::size_t> columns;
   for (std::size_t c = 0; c < layout.columns; ++c) {
-    const bool other = std::find(layout.other_times.begin(), layout.other_times.end(), c) != layout.other_times.end();
+    const bool other = contains(layout.other_times, c);
     if (static_cast<int>(c) != layout.time_column && !other) columns.push_back(c);
   }
   return columns;

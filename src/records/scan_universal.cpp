@@ -13,6 +13,7 @@
 #include <utility>
 
 #include "core/error.hpp"
+#include "core/lists.hpp"
 #include "io/letters.hpp"
 #include "records/take_clock.hpp"
 #include "records/text_cells.hpp"
@@ -260,7 +261,7 @@ long set_number(const std::string& line) { return integer_or(field(line, 0, 6), 
 /// A line with the number of a set that is read, and nothing else but the fields of 58b.
 bool begins_known_set(const std::string& line) {
   constexpr std::array<long, 8> known = {15, 55, 58, 82, 151, 164, 2411, 2412};
-  if (std::find(known.begin(), known.end(), set_number(line)) == known.end()) return false;
+  if (!contains(known, set_number(line))) return false;
   return field(line, 0, 80).find_first_not_of("0123456789") == std::string::npos || field(line, 0, 80).starts_with("58b");
 }
 
@@ -288,7 +289,7 @@ void read_set(UniversalLines& in, const std::string& set_line, const Visitor& vi
 void name_by_difference(std::vector<ChannelInfo>& channels) {
   const auto tells_apart = [&](std::size_t k) {
     std::set<std::string> seen;
-    return std::all_of(channels.begin(), channels.end(), [&](const ChannelInfo& c) {
+    return std::ranges::all_of(channels, [&](const ChannelInfo& c) {
       return k < c.other_names.size() && !c.other_names[k].empty() && c.other_names[k] != "NONE" &&
              seen.insert(c.other_names[k]).second;
     });
@@ -296,13 +297,11 @@ void name_by_difference(std::vector<ChannelInfo>& channels) {
   std::size_t most = 0;
   for (const ChannelInfo& channel : channels) most = std::max(most, channel.other_names.size());
   std::vector<std::size_t> telling;
-  for (const std::size_t k : {0, 5, 6, 7, 4, 3, 2, 1}) {  // of other_names: five title lines, then record 6
+  for (const std::size_t k : {0, 5, 6, 7, 4, 3, 2, 1})  // of other_names: five title lines, then record 6
     if (k < most && tells_apart(k)) telling.push_back(k);
-  }
   for (ChannelInfo& channel : channels) {
     const std::string title = channel.other_names.front();
-    std::vector<std::string> names;
-    for (const std::size_t k : telling) names.push_back(channel.other_names[k]);
+    auto names = each_of(telling, [&](std::size_t k) { return channel.other_names[k]; });
     const std::string point = channel.point + channel.direction;
     channel.name = !names.empty() ? names.front() : title.empty() || title == "NONE" ? point : title;
     channel.other_names = std::move(names);

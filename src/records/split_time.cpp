@@ -30,7 +30,7 @@ constexpr std::array<Part, kTimeParts> kParts = {
 /// Each row has what a part may be in each of their columns.
 bool hold_parts(const std::vector<std::vector<std::string_view>>& rows, const TimeParts& parts, bool decimal_comma,
                 bool named) {
-  return std::all_of(rows.begin(), rows.end(), [&](const std::vector<std::string_view>& cells) {
+  return std::ranges::all_of(rows, [&](const std::vector<std::string_view>& cells) {
     for (std::size_t k = 0; k < kTimeParts; ++k) {
       if (parts[k] < 0) continue;
       const auto value = number_in(cells[static_cast<std::size_t>(parts[k])], decimal_comma);

@@ -87,7 +87,7 @@ std::string place_of(const RecordInfo& info, Index row) {
 }
 
 long line_of(const RecordInfo& info, Index row) {
-  const auto after = std::find_if(info.lines.begin(), info.lines.end(), [&](const auto& l) { return l.first > row; });
+  const auto after = std::ranges::find_if(info.lines, [&](const auto& l) { return l.first > row; });
   return after == info.lines.begin() ? 0 : std::prev(after)->second + (row - std::prev(after)->first);
 }
 

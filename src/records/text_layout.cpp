@@ -8,6 +8,7 @@
 #include <limits>
 
 #include "core/error.hpp"
+#include "core/lists.hpp"
 #include "io/letters.hpp"
 #include "io/text_lines.hpp"
 #include "records/header_rate.hpp"
@@ -49,7 +50,7 @@ struct Run {
 /// No cell holds anything, or each holds a word for a missing value: such a line ends no run and begins none.
 bool holds_no_value(std::string_view line, char separator, bool decimal_comma) {
   const auto cells = cells_of(line, separator);
-  return std::all_of(cells.begin(), cells.end(), [&](std::string_view cell) {
+  return std::ranges::all_of(cells, [&](std::string_view cell) {
     const auto number = number_in(cell, decimal_comma);
     return number && !std::isfinite(*number);
   });
@@ -97,8 +98,8 @@ std::size_t names_above(const std::vector<std::string>& lines, const Run& run, c
     const auto cells = header_cells(lines[i], layout.separator);
     if (cells.empty()) continue;
     const auto is_text = [&](std::string_view cell) { return cell.empty() || !is_value(cell, layout.decimal_comma); };
-    const bool any = std::any_of(cells.begin(), cells.end(), [](std::string_view cell) { return !cell.empty(); });
-    return any && std::all_of(cells.begin(), cells.end(), is_text) ? cells.size() : 0;
+    const bool any = std::ranges::any_of(cells, [](std::string_view cell) { return !cell.empty(); });
+    return any && std::ranges::all_of(cells, is_text) ? cells.size() : 0;
   }
   return 0;
 }
@@ -124,10 +125,10 @@ void find_width(const std::vector<std::string>& lines, const std::vector<Run>& r
     return true;
   };
   while (layout.columns > 1 && named != layout.columns && layout.separator != ' ' &&
-         std::all_of(runs.begin(), runs.end(), [&](const Run& r) { return r.columns != longest.columns || is_empty(r); })) {
+         std::ranges::all_of(runs, [&](const Run& r) { return r.columns != longest.columns || is_empty(r); })) {
     layout.fewest = --layout.columns;
   }
-  const bool full = std::any_of(runs.begin(), runs.end(), [&](const Run& run) { return run.columns == named; });
+  const bool full = std::ranges::any_of(runs, [&](const Run& run) { return run.columns == named; });
   if (named > longest.columns && full) layout.columns = named;
 }
 
@@ -150,7 +151,7 @@ bool looks_like_unit(std::string_view cell) {
     return std::isalnum(static_cast<unsigned char>(c)) != 0 ||
            std::string_view("-%/*^.\xC2\xB0\xB2\xB5\xBC\xCE").find(c) != std::string_view::npos;
   };
-  return cell.size() <= longest && std::all_of(cell.begin(), cell.end(), of_unit);
+  return cell.size() <= longest && std::ranges::all_of(cell, of_unit);
 }
 
 bool is_known_unit(std::string_view cell) {
@@ -197,8 +198,8 @@ void read_names(const std::vector<std::string>& lines, std::size_t first, TextLa
   }
   if (above.empty()) return;
   const auto& nearest = above.front();
-  const bool units = above.size() > 1 && std::all_of(nearest.begin(), nearest.end(), looks_like_unit) &&
-                     std::any_of(nearest.begin(), nearest.end(), is_known_unit);
+  const bool units =
+      above.size() > 1 && std::ranges::all_of(nearest, looks_like_unit) && std::ranges::any_of(nearest, is_known_unit);
   layout.names = units ? above[1] : nearest;
   layout.units = units ? nearest : std::vector<std::string>(layout.columns);
   for (std::size_t c = 0; c < layout.columns; ++c) split_unit(layout.names[c], layout.units[c]);
@@ -278,8 +279,7 @@ void find_numbers_of_time(const std::vector<std::vector<std::string_view>>& rows
   for (const bool named : {true, false}) {
     if (!named && names && layout.time_column >= 0) return;
     for (std::size_t c = 0; c < layout.columns; ++c) {
-      const bool taken = std::find(layout.other_times.begin(), layout.other_times.end(), c) != layout.other_times.end() ||
-                         static_cast<int>(c) == layout.time_column;
+      const bool taken = contains(layout.other_times, c) || static_cast<int>(c) == layout.time_column;
       if (taken || (names && is_time_name(layout.names[c])) != named) continue;
       if (number_in(rows.front()[c], layout.decimal_comma)) examine(c, named);
     }
@@ -290,10 +290,11 @@ void find_numbers_of_time(const std::vector<std::vector<std::string_view>>& rows
 void find_date_and_time(const std::vector<std::vector<std::string_view>>& rows, TextLayout& layout) {
   const auto is_number = [&](std::size_t c) { return number_in(rows.front()[c], layout.decimal_comma).has_value(); };
   const auto belong = [&](std::size_t date, std::size_t time) {  // in nine rows of ten
-    return 10 * std::count_if(rows.begin(), rows.end(),
-                              [&](const std::vector<std::string_view>& row) {
-                                return time_stamp_meanings(std::string(row[date]) + " " + std::string(row[time])).empty();
-                              }) <=
+    return 10 * std::ranges::count_if(
+                    rows,
+                    [&](const std::vector<std::string_view>& row) {
+                      return time_stamp_meanings(std::string(row[date]) + " " + std::string(row[time])).empty();
+                    }) <=
            std::ssize(rows);
   };
   for (std::size_t date = 0; date < layout.columns; ++date) {
@@ -312,11 +313,8 @@ void find_date_and_time(const std::vector<std::vector<std::string_view>>& rows, 
 void find_time(const std::vector<std::vector<std::string_view>>& rows, TextLayout& layout) {
   if (rows.empty()) return;
   find_date_and_time(rows, layout);
-  const auto is_taken = [&](std::size_t c) {
-    return std::find(layout.other_times.begin(), layout.other_times.end(), c) != layout.other_times.end();
-  };
   for (std::size_t c = 0; c < layout.columns; ++c) {
-    if (is_taken(c) || number_in(rows.front()[c], layout.decimal_comma)) continue;
+    if (contains(layout.other_times, c) || number_in(rows.front()[c], layout.decimal_comma)) continue;
     if (layout.time_column < 0) layout.time_column = static_cast<int>(c);
     if (static_cast<int>(c) != layout.time_column) layout.other_times.push_back(c);
   }
@@ -398,7 +396,7 @@ void refuse_thousands(const std::vector<std::vector<std::string_view>>& rows, co
   std::size_t most = 0;
   for (const char separator : {';', '\t', ',', '|', ' '}) {
     const auto cells = lines.empty() ? std::vector<std::string_view>() : cells_of(lines[lines.size() / 2], separator);
-    const auto at = std::find_if(cells.begin(), cells.end(), [](std::string_view cell) { return !is_value(cell, false); });
+    const auto at = std::ranges::find_if(cells, [](std::string_view cell) { return !is_value(cell, false); });
     if (cells.size() <= most || at == cells.end()) continue;
     most = cells.size();
     reason = fmt::format("; line {} has '{}' in column {}, which is no number and no known time stamp", lines.size() / 2 + 1,

@@ -19,7 +19,7 @@ constexpr Index kLeast = 16, kEnough = 256;  ///< rows: no vibration rises that 
 void TimeColumns::decide() {
   if (held_.empty()) return;
   const Index first = held_.front().channel, end = first + held_.front().values.cols();
-  Index times = std::count_if(columns_.begin(), columns_.end(), [](const Column& c) { return c.is_time; });
+  Index times = std::ranges::count_if(columns_, [](const Column& c) { return c.is_time; });
   for (Index c = first; c < end; ++c) {
     Column& column = columns_[static_cast<std::size_t>(c)];
     column.decided = true;

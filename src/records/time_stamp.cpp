@@ -81,7 +81,7 @@ struct DayTime {
 /// @param name  letters before the scanner's place @param ahead  [s] of UTC by an offset in numbers
 bool ends_in_zone(Scanner& in, std::string_view name, double& ahead) {
   constexpr std::size_t longest = 5;  // letters
-  const bool capitals = std::all_of(name.begin(), name.end(), [](char c) { return c >= 'A' && c <= 'Z'; });
+  const bool capitals = std::ranges::all_of(name, [](char c) { return c >= 'A' && c <= 'Z'; });
   if (name != "z" && (!capitals || name.size() > longest)) return false;
   const double sign = in.is_at("-") ? -1.0 : 1.0;
   if (!in.one_of("+-")) return in.done();

@@ -55,7 +55,7 @@ std::string UniversalLines::bytes(std::size_t n) {
 std::string UniversalLines::take(std::size_t n) {
   std::string data = bytes(n);
   without_end_ = false;
-  number_ += std::count(data.begin(), data.end(), '\n');
+  number_ += std::ranges::count(data, '\n');
   return data;
 }
 

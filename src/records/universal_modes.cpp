@@ -7,6 +7,7 @@
 #include <set>
 
 #include "core/error.hpp"
+#include "core/lists.hpp"
 #include "io/csv.hpp"
 #include "records/scan_universal.hpp"
 
@@ -43,11 +44,10 @@ std::vector<NodalResult> modes_among(const UniversalData& data, const fs::path& 
 
 /// Nodes of the modes, which are the same in all.
 std::vector<long> nodes_of(const std::vector<NodalResult>& modes, const UniversalData& data, const fs::path& file) {
-  std::vector<long> nodes;
-  for (const auto& [node, values] : modes.front().values) nodes.push_back(node);
+  const auto nodes = each_of(modes.front().values, [](const auto& at) { return at.first; });
   for (const NodalResult& mode : modes) {
     const auto differs = [&, &m = mode](long node) { return !m.values.contains(node); };
-    const auto lacking = std::find_if(nodes.begin(), nodes.end(), differs);
+    const auto lacking = std::ranges::find_if(nodes, differs);
     if (lacking != nodes.end() || mode.values.size() != nodes.size())
       refuse(file,
              fmt::format("has mode {} at {:.6g} Hz at other nodes than mode {} at {:.6g} Hz", mode.mode, mode.frequency_Hz,
