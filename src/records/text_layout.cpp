@@ -92,14 +92,18 @@ std::vector<std::string_view> header_cells(std::string_view text, char separator
   return cells;
 }
 
-/// How many columns the line above a run names: all of its cells are no values, and one at least holds letters. 0 for none.
+/// LabVIEW closes its names with this one, whose cells stand in the rows only where somebody commented.
+bool is_comment(std::string_view name) { return io::lower_case(trimmed(name)) == "comment"; }
+
+/// How many columns the line above a run names, comments not counted: all of its cells are no values, and one at least holds
+/// letters. 0 for none.
 std::size_t names_above(const std::vector<std::string>& lines, const Run& run, const TextLayout& layout) {
   for (std::size_t i = run.first; i-- > 0;) {
     const auto cells = header_cells(lines[i], layout.separator);
     if (cells.empty()) continue;
     const auto is_text = [&](std::string_view cell) { return cell.empty() || !is_value(cell, layout.decimal_comma); };
     const bool any = std::ranges::any_of(cells, [](std::string_view cell) { return !cell.empty(); });
-    return any && std::ranges::all_of(cells, is_text) ? cells.size() : 0;
+    return any && std::ranges::all_of(cells, is_text) ? cells.size() - (is_comment(cells.back()) ? 1 : 0) : 0;
   }
   return 0;
 }
@@ -183,6 +187,7 @@ void read_names(const std::vector<std::string>& lines, std::size_t first, TextLa
     // Separators at the end of a line of names or units close it as they close the rows.
     if (cells.size() < layout.columns && cells_of(lines[i], layout.separator).size() >= layout.columns)
       cells.resize(layout.columns);
+    if (cells.size() == layout.columns + 1 && is_comment(cells.back())) cells.pop_back();
     if (cells.size() != layout.columns) {
       if (above.empty() && cells.size() > 1) {
         layout.unaligned.assign(cells.begin(), cells.end());
@@ -203,6 +208,16 @@ void read_names(const std::vector<std::string>& lines, std::size_t first, TextLa
   layout.names = units ? above[1] : nearest;
   layout.units = units ? nearest : std::vector<std::string>(layout.columns);
   for (std::size_t c = 0; c < layout.columns; ++c) split_unit(layout.names[c], layout.units[c]);
+}
+
+/// Units that LabVIEW writes above the names, a line "Y_Unit_Label" with a cell for each column behind the first.
+void read_unit_labels(const std::vector<std::string>& lines, std::size_t first, TextLayout& layout) {
+  for (std::size_t i = 0; i < first && !layout.units.empty(); ++i) {
+    const auto cells = header_cells(lines[i], layout.separator);
+    if (cells.empty() || cells.front() != "Y_Unit_Label") continue;
+    for (std::size_t c = 1; c < std::min(cells.size(), layout.columns); ++c)
+      if (layout.units[c].empty()) layout.units[c] = std::string(cells[c]);
+  }
 }
 
 void read_header_rate(const std::vector<std::string>& lines, std::size_t first, TextLayout& layout) {
@@ -439,6 +454,7 @@ TextLayout find_layout(const fs::path& file) {
   while (first > 0 && is_incomplete_row(lines[first - 1], layout)) --first;
   layout.first_data_line = static_cast<long>(first) + 1;
   read_names(lines, first, layout);
+  read_unit_labels(lines, first, layout);
   read_header_rate(lines, first, layout);
   const auto rows = first_rows(lines, first, layout);
   refuse_thousands(rows, layout, file);

@@ -59,6 +59,24 @@ TEST(ExportedTable, ASlowChannelInTheLastColumn) {
   }
 }
 
+TEST(ExportedTable, OfLabViewHasItsNamesAndUnitsWithOrWithoutComments) {
+  const Scratch scratch;
+  for (const char* end : {"\n", "\t\n"}) {  // rows that stop before the column of comments, or open it
+    std::string text = "LabVIEW Measurement\t\nWriter_Version\t2\nSeparator\tTab\n***End_of_Header***\t\n\t\n";
+    text +=
+        "Channels\t2\t\t\nY_Unit_Label\tm/"
+        "s2\tmm\t\nDelta_X\t0.01\t0.01\t\n***End_of_Header***\t\t\t\nX_Value\ttop\tmid\tComment\n";
+    for (int t = 0; t < 200; ++t) text += fmt::format("{:.6f}\t{}\t{}{}", 0.01 * t, cell(wave(t, 0)), cell(wave(t, 1)), end);
+    const Record record = read(scratch.write("a.lvm", text));
+    expect_waves(record, 200, 2, end);
+    EXPECT_EQ(record.info.channels[0].name, "top");
+    EXPECT_EQ(record.info.channels[1].name, "mid");
+    EXPECT_EQ(record.info.channels[0].unit, "m/s2");
+    EXPECT_EQ(record.info.channels[1].unit, "mm");
+    EXPECT_NEAR(record.info.rate_Hz, 100.0, 1e-6);
+  }
+}
+
 TEST(ExportedTable, SeparatorsQuotesAndDecimalCommas) {
   const Scratch scratch;
   struct Form {
