@@ -19,7 +19,7 @@ struct Stated {
 std::regex value_with(const std::string& units) {
   return std::regex(R"re(([ \t"]*)(?:[[(]+()re" + units +
                     R"re()?[\])]*([ \t"]*))?([:=;,]*)[ \t"]*)re"
-                    R"re((\d+(?:[.,]\d*)?(?:e[+-]?\d+)?)(?:[ \t"]*()re" +
+                    R"re(((?:\d+(?:[.,]\d*)?|\.\d+)(?:e[+-]?\d+)?)(?:[ \t"]*()re" +
                     units + "))?");
 }
 
@@ -74,6 +74,15 @@ bool is_time_name(std::string_view text) {
       "|(?:^|[^a-z])(?:time|zeit|zeitstempel|uhrzeit|tempo|tiempo|datum|date|datetime|data/ora|elapsed|sec|seconds|epoch|utc"
       "|millis|t(?!\\d))(?:m?s)?(?![a-z])");  // "time_s", "tms"; T09y is a sensor
   return std::regex_search(io::lower_case(text), time);
+}
+
+std::optional<long> samples_in_header_line(std::string_view text) {
+  static const std::regex stated(
+      R"(\bnpts\b\W{0,9}(\d{2,9})\b|\b(\d{2,9}) samples\b|number of (?:points|samples)\W{0,9}(\d{2,9})\b)");
+  const std::string line = io::lower_case(text.substr(0, 300));  // a regular expression takes memory for each letter
+  std::smatch found;
+  if (!std::regex_search(line, found, stated)) return std::nullopt;
+  return std::stol(found[1].matched ? found[1] : found[2].matched ? found[2] : found[3]);
 }
 
 }  // namespace twindeck::records

@@ -176,6 +176,19 @@ class Rows {
   std::size_t fewest_decimals_ = kNone;  ///< letters from the decimal sign on in a row's last cell
 };
 
+/// Refuses one series that is written on along the rows: its header states about as many samples as the rows have numbers. A
+/// table with a clock of its own, or with a line of names, has channels.
+void refuse_wrapped_series(const fs::path& file, const TextLayout& layout, Index rows) {
+  const auto columns = static_cast<Index>(layout.columns);
+  const Index stated = layout.header_samples.value_or(0), full = stated / columns;
+  const bool named = !layout.names.empty() && layout.header_samples_line + 1 != layout.first_data_line;
+  if (columns < 2 || layout.time_column >= 0 || named || stated <= rows || (rows != full && rows != full + 1)) return;
+  throw InputError({file.string(), layout.header_samples_line, ""},
+                   fmt::format("states {} samples, and {} rows of {} numbers follow: one series, written on from row to row",
+                               stated, rows, columns),
+                   "write one number a line: tr -s ' \\t,' '\\n' on the lines below the header");
+}
+
 }  // namespace
 
 RecordInfo scan_text(const fs::path& file, const Visitor& visit, const ReadOptions& options) {
@@ -201,6 +214,7 @@ RecordInfo scan_text(const fs::path& file, const Visitor& visit, const ReadOptio
       continue;
     }
     if (kind == Rows::Kind::stray) {
+      refuse_wrapped_series(file, layout, parts.rows());  // its last row may be a short one
       if (!options.skip_stray_lines)
         throw InputError(
             {file.string(), in.number(), ""},
@@ -217,6 +231,7 @@ RecordInfo scan_text(const fs::path& file, const Visitor& visit, const ReadOptio
     parts.add(rows.values());
   }
   parts.flush();
+  refuse_wrapped_series(file, layout, parts.rows());
   for (ChannelInfo& channel : info.channels) channel.samples = parts.rows();
   if (layout.time_column >= 0)
     take_clock(stamps, layout.stamps || layout.time_parts ? 1.0 : layout.time_unit_s, "time column" + time_name(layout), info);

@@ -6,6 +6,7 @@
 #include <cctype>
 #include <cmath>
 #include <limits>
+#include <set>
 
 #include "core/error.hpp"
 #include "core/lists.hpp"
@@ -150,7 +151,7 @@ bool looks_like_unit(std::string_view cell) {
   if (cell.find('_') != std::string_view::npos) return false;
   if (cell.size() > 1 && ((cell.front() == '[' && cell.back() == ']') || (cell.front() == '(' && cell.back() == ')')))
     return true;
-  constexpr std::size_t longest = 8;  // bytes of a unit without brackets
+  constexpr std::size_t longest = 12;  // bytes of a unit without brackets
   const auto of_unit = [](char c) {
     return std::isalnum(static_cast<unsigned char>(c)) != 0 ||
            std::string_view("-%/*^.\xC2\xB0\xB2\xB5\xBC\xCE").find(c) != std::string_view::npos;
@@ -179,9 +180,11 @@ void split_unit(std::string& name, std::string& unit) {
   if (unit.size() > 2 && (unit.front() == '[' || unit.front() == '(')) unit = unit.substr(1, unit.size() - 2);
 }
 
+/// Names, of the nearest line above the numbers or, where that holds units, of the next one. Loggers write a third line between
+/// both and the numbers (a kind of sample, an amplifier), which repeats words: names tell columns apart.
 void read_names(const std::vector<std::string>& lines, std::size_t first, TextLayout& layout) {
   std::vector<std::vector<std::string>> above;  // the nearest first
-  for (std::size_t i = first; i-- > 0 && above.size() < 2;) {
+  for (std::size_t i = first; i-- > 0 && above.size() < 3;) {
     auto cells = header_cells(lines[i], layout.separator);
     if (cells.empty()) continue;
     // Separators at the end of a line of names or units close it as they close the rows.
@@ -202,11 +205,16 @@ void read_names(const std::vector<std::string>& lines, std::size_t first, TextLa
     above.emplace_back(cells.begin(), cells.end());
   }
   if (above.empty()) return;
-  const auto& nearest = above.front();
-  const bool units =
-      above.size() > 1 && std::ranges::all_of(nearest, looks_like_unit) && std::ranges::any_of(nearest, is_known_unit);
-  layout.names = units ? above[1] : nearest;
-  layout.units = units ? nearest : std::vector<std::string>(layout.columns);
+  const auto are_units = [&](std::size_t k) {
+    return k + 1 < above.size() && std::ranges::all_of(above[k], looks_like_unit) &&
+           std::ranges::any_of(above[k], is_known_unit);
+  };
+  const std::set<std::string> different(above.front().begin(), above.front().end());
+  const bool repeats = different.size() < above.front().size();
+  const std::size_t at = !are_units(0) && repeats && are_units(1) ? 1 : 0;
+  const bool units = are_units(at);
+  layout.names = units ? above[at + 1] : above.front();
+  layout.units = units ? above[at] : std::vector<std::string>(layout.columns);
   for (std::size_t c = 0; c < layout.columns; ++c) split_unit(layout.names[c], layout.units[c]);
 }
 
@@ -224,6 +232,10 @@ void read_header_rate(const std::vector<std::string>& lines, std::size_t first, 
   for (std::size_t i = 0; i < first && !layout.header_rate_Hz; ++i) {
     layout.header_rate_Hz = rate_in_header_line(lines[i]);
     if (layout.header_rate_Hz) layout.header_rate_text = std::string(trimmed(lines[i]));
+  }
+  for (std::size_t i = 0; i < first && !layout.header_samples; ++i) {
+    layout.header_samples = samples_in_header_line(lines[i]);
+    layout.header_samples_line = static_cast<long>(i) + 1;
   }
 }
 

@@ -32,6 +32,8 @@ struct TextLayout {
   std::vector<std::string> notes;        ///< on columns whose names say time
   std::optional<double> header_rate_Hz;
   std::string header_rate_text;  ///< the line that says so
+  std::optional<long> header_samples;
+  long header_samples_line = 0;
 };
 
 /// Reads the layout from the beginning of a file: header lines of any number and kind, a line `sep=;`, names and units.

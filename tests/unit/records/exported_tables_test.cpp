@@ -77,6 +77,45 @@ TEST(ExportedTable, OfLabViewHasItsNamesAndUnitsWithOrWithoutComments) {
   }
 }
 
+TEST(ExportedTable, NamesStandAboveUnitsThoughAThirdLineFollows) {
+  const Scratch scratch;
+  struct Logger {
+    const char *name, *head, *first;
+  };
+  for (const Logger& logger :
+       {Logger{
+            "TOA5",
+            "\"TOA5\",\"bridge\",\"CR6\"\n\"TIME\",\"top\",\"mid\"\n\"TS\",\"m/s^2\",\"microstrain\"\n\"\",\"Smp\",\"Smp\"\n",
+            "m/s^2"},
+        Logger{"catman", "HBM catman\n\nTime,top,mid\ns,mm,microstrain\nTime 1,MX840,MX840\n", "mm"}}) {
+    std::string text = logger.head;
+    for (int t = 0; t < 200; ++t) text += fmt::format("{:.2f},{},{}\n", 0.01 * t, cell(wave(t, 0)), cell(wave(t, 1)));
+    const Record record = read(scratch.write("a.dat", text));
+    expect_waves(record, 200, 2, logger.name);
+    EXPECT_EQ(record.info.channels[0].name, "top") << logger.name;
+    EXPECT_EQ(record.info.channels[1].name, "mid") << logger.name;
+    EXPECT_EQ(record.info.channels[0].unit, logger.first) << logger.name;
+    EXPECT_EQ(record.info.channels[1].unit, "microstrain") << logger.name;
+  }
+}
+
+TEST(ExportedTable, OneSeriesWrittenOnAlongTheRowsIsRefusedAndReadAsTheRemedySays) {
+  const Scratch scratch;
+  for (const int samples : {400, 398}) {  // the last row is full, or not
+    const std::string head = fmt::format("RECORD OF A BRIDGE\nUNITS OF G\nNPTS=   {}, DT=   .0100 SEC\n", samples);
+    std::string wrapped = head, column = head;
+    for (int t = 0; t < samples; ++t) {
+      wrapped += "  " + cell(wave(t, 0)) + (t % 5 == 4 || t + 1 == samples ? "\n" : "");
+      column += cell(wave(t, 0)) + "\n";
+    }
+    const std::string message = refusal(scratch.write("a.at2", wrapped));
+    EXPECT_NE(message.find(fmt::format("states {} samples", samples)), std::string::npos) << message;
+    const Record record = read(scratch.write("b.at2", column));
+    expect_waves(record, samples, 1, "one number a line");
+    EXPECT_NEAR(record.info.rate_Hz, 100.0, 1e-9);
+  }
+}
+
 TEST(ExportedTable, SeparatorsQuotesAndDecimalCommas) {
   const Scratch scratch;
   struct Form {
