@@ -3,7 +3,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cctype>
 #include <limits>
+#include <set>
 
 #include "core/error.hpp"
 #include "core/lists.hpp"
@@ -176,6 +178,21 @@ class Rows {
   std::size_t fewest_decimals_ = kNone;  ///< letters from the decimal sign on in a row's last cell
 };
 
+/// A line without its digits: "Channel 1" and "Channel 2" have one form.
+std::string form_of(std::string_view line) {
+  std::string out(trimmed(line));
+  std::erase_if(out, [](char c) { return std::isdigit(static_cast<unsigned char>(c)) != 0; });
+  return out;
+}
+
+[[noreturn]] void refuse_next_block(const fs::path& file, long number, std::string_view line) {
+  throw InputError({file.string(), number, ""},
+                   fmt::format("'{}' stands in the header too: another block of numbers begins, and no column of time says "
+                               "whether it goes on",
+                               trimmed(line).substr(0, 60)),
+                   "write each block into a file of its own, or side by side as columns");
+}
+
 /// Refuses one series that is written on along the rows: its header states about as many samples as the rows have numbers. A
 /// table with a clock of its own, or with a line of names, has channels.
 void refuse_wrapped_series(const fs::path& file, const TextLayout& layout, Index rows) {
@@ -202,8 +219,12 @@ RecordInfo scan_text(const fs::path& file, const Visitor& visit, const ReadOptio
   RowParts parts(std::ssize(columns), visit);
   io::TextLines in(file);
   long stray = 0, first_stray = 0;
+  std::set<std::string> header;
   for (std::string line; in.next(line);) {
-    if (in.number() < layout.first_data_line) continue;
+    if (in.number() < layout.first_data_line) {
+      header.insert(form_of(line));
+      continue;
+    }
     const Rows::Kind kind = rows.take(line, in.without_end());
     if (kind == Rows::Kind::blank) continue;
     if (kind == Rows::Kind::cut) {
@@ -215,6 +236,7 @@ RecordInfo scan_text(const fs::path& file, const Visitor& visit, const ReadOptio
     }
     if (kind == Rows::Kind::stray) {
       refuse_wrapped_series(file, layout, parts.rows());  // its last row may be a short one
+      if (layout.time_column < 0 && header.contains(form_of(line))) refuse_next_block(file, in.number(), line);
       if (!options.skip_stray_lines)
         throw InputError(
             {file.string(), in.number(), ""},

@@ -116,6 +116,19 @@ TEST(ExportedTable, OneSeriesWrittenOnAlongTheRowsIsRefusedAndReadAsTheRemedySay
   }
 }
 
+TEST(ExportedTable, BlocksUnderEachOtherAreNoSingleChannel) {
+  const Scratch scratch;
+  std::string text, first;
+  for (const int c : {0, 1}) {
+    text += fmt::format("Channel {}\ndt = 0.01 s\n", c + 1);
+    for (int t = 0; t < 200; ++t) text += cell(wave(t, c)) + "\n";
+    if (c == 0) first = text;
+  }
+  const std::string message = refusal(scratch.write("a.txt", text));
+  EXPECT_NE(message.find("203: 'Channel 2' stands in the header too"), std::string::npos) << message;
+  expect_waves(read(scratch.write("b.txt", first)), 200, 1, "a block of its own");
+}
+
 TEST(ExportedTable, SeparatorsQuotesAndDecimalCommas) {
   const Scratch scratch;
   struct Form {
