@@ -86,6 +86,9 @@ std::optional<std::string> without_groups(std::string_view cell, char decimal) {
 
 std::optional<double> number_in(std::string_view cell, bool decimal_comma) {
   constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+  constexpr std::string_view typeset = "\xE2\x88\x92";  // the minus of a text processor
+  if (const std::size_t minus = cell.find(typeset); minus != std::string_view::npos)
+    return number_in(std::string(cell).replace(minus, typeset.size(), "-"), decimal_comma);
   if (cell.empty()) return nan;
   std::array<char, 64> buffer{};
   if (cell.size() >= buffer.size()) return {};

@@ -161,6 +161,7 @@ TEST(Cells, DatesAndNumbers) {
   EXPECT_FALSE(is_date("3.4") || is_date("3.4.20211") || is_date("3.4.2021x") || is_date("") || is_date("20211.1.1"));
   EXPECT_EQ(number_in("1,5", true), 1.5);
   EXPECT_EQ(number_in("+2.5D-1", false), 0.25);
+  EXPECT_EQ(number_in("\u22121.5e\u22123", false), -1.5e-3);
   EXPECT_FALSE(number_in("1.2.3", false).has_value());
 }
 
