@@ -1,4 +1,5 @@
 """The model as step 1 reads it: a model folder, or a deck, which gets a file of parameters beside it."""
+import re
 import shutil
 import subprocess
 import tempfile
@@ -10,7 +11,9 @@ import pandas as pd
 
 from .errors import InputError
 
-DECKS = (".inp", ".bdf", ".nas", ".dat", ".cdb")
+DECKS = (".inp", ".bdf", ".nas", ".blk", ".cdb", ".s2k", ".$2k")
+OTHERS = (".dat", ".mac", ".ans", ".txt")  # a deck, a record or a table
+CARDS = re.compile(rb"^\s*(BEGIN BULK|GRID[ ,*]|/PREP|NBLO|EBLO|ETBL|ET,)", re.IGNORECASE | re.MULTILINE)  # as step 1 tells a deck
 STIFFNESS_RANGE, DENSITY_RANGE = 0.2, 0.1  # [-] either way: what a modulus of elasticity and a density of a usual material may be off; stated as a start
 
 
@@ -23,7 +26,8 @@ class Model:
 
 
 def is_deck(path: Path) -> bool:
-    return path.suffix.lower() in DECKS
+    """By its ending, or where loggers use that too, by its cards."""
+    return path.suffix.lower() in DECKS or (path.suffix.lower() in OTHERS and CARDS.search(path.read_bytes()) is not None)
 
 
 def read_model(bin_folder: Path, source: Path, title: str) -> Model:

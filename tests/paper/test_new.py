@@ -16,7 +16,7 @@ import numpy as np
 ROOT = Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(ROOT / "paper"))
 
-from twindeck_new import campaign, inspection, sensors, settings  # noqa: E402
+from twindeck_new import campaign, inspection, model, sensors, settings  # noqa: E402
 from twindeck_new.errors import InputError  # noqa: E402
 
 BIN = Path(os.environ.get("TWINDECK_BIN", ROOT / "build/bin"))
@@ -58,6 +58,12 @@ class Pieces(unittest.TestCase):
         self.assertEqual(record.units, ("m/s²", "?"))
         self.assertTrue(record.named)
         self.assertIsNone(inspection.read(Path("x.npy"), [line.replace("rate      50 Hz, from the time column", "rate      unknown") for line in INSPECTED]).rate_Hz)
+
+    def test_a_deck_is_told_from_a_record_of_the_same_ending(self):
+        for name, text in (("a.dat", "SOL 103\nCEND\nBEGIN BULK\nGRID,1,,0.,0.,0.\n"), ("b.dat", "/PREP7\nET,1,188\n"), ("c.mac", "finish\n/prep7\n"), ("D.INP", "*NODE\n")):
+            self.assertTrue(model.is_deck(self.write(name, text)), name)
+        for name, text in (("toa5.dat", '"TOA5","grid"\n"TIMESTAMP","a"\n"2023-05-01 10:00:00",1\n'), ("e.txt", "time a\n0 1\n"), ("f.csv", "GRID,1\n")):
+            self.assertFalse(model.is_deck(self.write(name, text)), name)
 
     def test_a_table_of_sensors(self):
         found = sensors.table_of_sensors(self.write("s.csv", "Sensor;x;y;z;direction\nA;0;0;3,5;x\nB;1;;;-z\n"))
