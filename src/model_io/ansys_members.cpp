@@ -93,14 +93,13 @@ void add_bar(Builder& builder, const Member& member) {
 std::vector<long> nodes_of_shell(const Builder& builder, const Member& member) {
   const auto& all = member.element.nodes;
   const auto left_out = all.size() > 4 ? std::count(all.begin() + 4, all.end(), 0L) : 0;
-  const bool linear = all.size() <= 4 || left_out == static_cast<std::ptrdiff_t>(all.size()) - 4;
+  const bool linear = all.size() <= 4 || left_out == std::ssize(all) - 4;
   if (!linear && left_out > 0)
     builder.fail(member, "leaves out some of the nodes on its edges, which is not supported", "give all, or none");
   std::vector<long> nodes;
   for (const long id :
-       linear ? std::vector<long>(all.begin(), all.begin() + std::min<std::ptrdiff_t>(4, std::ssize(all))) : all) {
-    if (std::ranges::find(nodes, id) == nodes.end()) nodes.push_back(id);
-  }
+       linear ? std::vector<long>(all.begin(), all.begin() + std::min<std::ptrdiff_t>(4, std::ssize(all))) : all)
+    if (!contains(nodes, id)) nodes.push_back(id);
   return nodes;
 }
 
@@ -118,7 +117,7 @@ void add_shell(Builder& builder, const Member& member) {
 void add_solid(Builder& builder, const Member& member) {
   std::vector<long> nodes = member.element.nodes;
   if (nodes.size() > 8 && std::all_of(nodes.begin() + 8, nodes.end(), [](long id) { return id == 0; })) nodes.resize(8);
-  if (std::ranges::find(nodes, 0L) != nodes.end())
+  if (contains(nodes, 0L))
     builder.fail(member, "leaves out some of the nodes on its edges, which is not supported", "give all, or none");
   const std::size_t different = std::set<long>(nodes.begin(), nodes.end()).size();
   // A tetrahedron is written as a hexahedron I, J, K, K, M, M, M, M, and its edges as those of one: I-J, J-K, K, K-I, M four
@@ -136,7 +135,7 @@ void add_solid(Builder& builder, const Member& member) {
         "mesh with hexahedra, or tetrahedra where they do not fit");
   fe::Element e = element_of(builder, member, fe::ElementType::solid, nodes);
   e.material = builder.material(member, member.element.material, true);
-  e.group = builder.group(member, builder.parts.model.materials[static_cast<std::size_t>(e.material)].name);
+  e.group = builder.group(member, builder.parts.model.materials[fe::slot(e.material)].name);
   builder.parts.add_element(e);
 }
 
@@ -164,9 +163,9 @@ std::array<bool, 3> moving_directions(const Builder& builder, long id) {
     for (std::size_t d = 0; d < 3; ++d)
       if ((s.node == node || s.node2 == node) && !s.rotation && s.direction[static_cast<int>(d)] != 0.0) moves[d] = true;
   for (const fe::Constraint& c : model.constraints) {
-    if (c.node == node && c.direction < 3) moves[static_cast<std::size_t>(c.direction)] = true;
+    if (c.node == node && c.direction < 3) moves[fe::slot(c.direction)] = true;
     for (const fe::Constraint::Term& term : c.terms)
-      if (term.node == node && term.direction < 3) moves[static_cast<std::size_t>(term.direction)] = true;
+      if (term.node == node && term.direction < 3) moves[fe::slot(term.direction)] = true;
   }
   for (const fe::Support& support : model.supports)
     for (std::size_t d = 0; d < 3; ++d) moves[d] = moves[d] && !(support.node == node && support.fixed[d]);

@@ -354,7 +354,7 @@ void read_real_block(Parts& parts, const Command& block) {
     RealSet set;
     set.line = parts.deck.line();
     std::size_t at = first.integers;
-    while (static_cast<long>(set.values.size()) < count) {
+    while (std::ssize(set.values) < count) {
       if (at >= (set.values.size() < first.reals ? first.integers + first.reals : next.reals)) {
         cells = needed_cells(parts, block, next);
         at = 0;

@@ -35,7 +35,7 @@ std::vector<int> known_dofs(const Command& command, std::size_t field) {
 void hold(Parts& parts, const Command& command, long node, const std::vector<int>& dofs, const std::string& name) {
   Hold& held = parts.holds[node];
   if (held.line == 0) held = {{}, name, command.line};
-  for (const int dof : dofs) held.fixed[static_cast<std::size_t>(dof)] = true;
+  for (const int dof : dofs) held.fixed[fe::slot(dof)] = true;
 }
 
 void read_terms(const Command& command, Equation& equation, std::size_t first) {
@@ -241,7 +241,7 @@ void read_released_support(Parts& parts, const Command& command) {
     const auto held = parts.holds.find(node);
     if (held == parts.holds.end()) continue;
     for (const int dof : dofs) {
-      held->second.fixed[static_cast<std::size_t>(dof)] = false;
+      held->second.fixed[fe::slot(dof)] = false;
       parts.movements[node].erase(dof);
     }
   }
@@ -268,7 +268,7 @@ void read_rigid_region(Parts& parts, const Command& command) {
     const std::string label = command.blank(i) ? "ALL" : command.word(i);
     for (std::size_t d = 0; d < 3 && (label == "UXYZ" || label == "RXYZ"); ++d) tied[label == "UXYZ" ? d : d + 3] = true;
     if (label == "UXYZ" || label == "RXYZ") continue;
-    for (const int dof : dofs_of(label)) tied[static_cast<std::size_t>(dof)] = true;
+    for (const int dof : dofs_of(label)) tied[fe::slot(dof)] = true;
     if (dofs_of(label).empty())
       command.fail(fmt::format("'{}' is no degree of freedom of a structure", label),
                    "expected ALL, UXYZ, RXYZ, UX, UY, UZ, ROTX, ROTY or ROTZ");

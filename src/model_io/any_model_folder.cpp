@@ -1,5 +1,6 @@
 #include "model_io/any_model_folder.hpp"
 
+#include <algorithm>
 #include <fstream>
 
 #include "core/error.hpp"
@@ -12,17 +13,6 @@
 #include "model_io/write_model.hpp"
 
 namespace twindeck::model_io {
-namespace {
-
-/// Null where the table has no such key.
-const io::TomlValue* find(const io::TomlValue::Table& table, const std::string& key) {
-  for (const io::TomlEntry& entry : table)
-    if (entry.key == key) return &entry.value;
-  return nullptr;
-}
-
-}  // namespace
-
 dynamics::ReadModel read_model_folder(const std::filesystem::path& folder) {
   if (!is_matrix_model(folder)) return dynamics::valid_model(read_model(folder));
   dynamics::ReadModel read;
@@ -72,7 +62,7 @@ bool is_matrix_model(const std::filesystem::path& folder) {
   if (!std::filesystem::exists(file))
     throw InputError({file.string(), 0, ""}, "is not there, but every model folder has one",
                      "write model.toml with at least a title, or point --model at another folder");
-  return find(io::read_toml(file), "matrices") != nullptr;
+  return std::ranges::any_of(io::read_toml(file), [](const io::TomlEntry& entry) { return entry.key == "matrices"; });
 }
 
 long line_of(const std::filesystem::path& file, const std::string& text) {

@@ -68,13 +68,12 @@ class Parser {
   double sum() {
     double result = product();
     while (!failed_) {
-      if (take("+")) {
+      if (take("+"))
         result += product();
-      } else if (take("-")) {
+      else if (take("-"))
         result -= product();
-      } else {
+      else
         break;
-      }
     }
     return result;
   }
@@ -82,11 +81,10 @@ class Parser {
   double product() {
     double result = power();
     while (!failed_ && (peek() == '*' || peek() == '/')) {
-      if (take("/")) {
+      if (take("/"))
         result /= power();
-      } else if (take("*")) {
+      else if (take("*"))
         result *= power();
-      }
     }
     return result;
   }

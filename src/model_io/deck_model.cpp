@@ -193,7 +193,7 @@ struct WeightedMean {
 
 WeightedMean weighted_mean(const DeckModel& deck, int reference, const std::vector<DeckModel::Sample>& samples) {
   constexpr double singular = 1e-9, settled = 1e-6;  ///< [-] of the largest singular value; of a unit motion
-  const auto n = static_cast<Eigen::Index>(samples.size());
+  const auto n = std::ssize(samples);
   double reach = 0.0;
   const auto arm_m = [&](const DeckModel::Sample& sample) {
     return Eigen::Vector3d(deck.place(sample.node) - deck.place(reference));
@@ -339,10 +339,10 @@ void renumber_nodes(fe::Model& model, const std::vector<int>& now) {
   TWINDECK_ASSERT(now.size() == model.nodes.size());
   std::vector<fe::Node> nodes(static_cast<std::size_t>(std::ranges::count_if(now, [](int to) { return to >= 0; })));
   for (std::size_t i = 0; i < now.size(); ++i)
-    if (now[i] >= 0) nodes[static_cast<std::size_t>(now[i])] = std::move(model.nodes[i]);
+    if (now[i] >= 0) nodes[fe::slot(now[i])] = std::move(model.nodes[i]);
   model.nodes = std::move(nodes);
   for_each_joined_node(model, [&](int& node) { node = now[static_cast<std::size_t>(node)]; });
-  for (fe::Support& support : model.supports) support.node = now[static_cast<std::size_t>(support.node)];
+  for (fe::Support& support : model.supports) support.node = now[fe::slot(support.node)];
   std::erase_if(model.supports, [](const fe::Support& support) { return support.node < 0; });
 }
 

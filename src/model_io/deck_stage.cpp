@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/lists.hpp"
 #include "fe/assembly_elements.hpp"
 #include "fe/beam_frame.hpp"
 
@@ -23,7 +24,7 @@ constexpr std::array<StagePoint, 4> line_points = {{{0.069431844202973712, 0.173
 
 constexpr std::uint16_t rotations_of_first = 0b111000, rotations_of_second = 0b111000 << 6;
 
-const Eigen::Vector3d& stage_place(const fe::Model& model, int node) { return model.nodes[static_cast<std::size_t>(node)].x_m; }
+const Eigen::Vector3d& stage_place(const fe::Model& model, int node) { return model.nodes[fe::slot(node)].x_m; }
 
 /// Of each node of a facet: its area vector ∫ N_i n dA and its area ∫ N_i dA, which is negative at the corners of eight nodes.
 struct FacetAreas {
@@ -218,9 +219,7 @@ void DeckStage::press_solid(const DeckPlace& at, long id, std::size_t face, doub
   const fe::Element& e = element(at, id);
   if (pieces(id).size() > 1 || e.type != fe::ElementType::solid || face >= solid_faces(e.nodes.size()).size())
     refuse(at, id, fmt::format("a pressure on face {} (P{})", face + 1, face + 1));
-  std::vector<int> nodes;
-  for (const std::size_t i : solid_faces(e.nodes.size())[face]) nodes.push_back(e.nodes[i]);
-  press(nodes, pressure);
+  press(each_of(solid_faces(e.nodes.size())[face], [&](std::size_t i) { return e.nodes[i]; }), pressure);
 }
 
 void DeckStage::press(const std::vector<int>& nodes, double pressure) {

@@ -18,12 +18,11 @@ void save_dofs(const std::vector<fe::DofLabel>& labels, const std::vector<std::s
   io::CsvWriter dofs({"dof", "node", "direction", "x_m", "y_m", "z_m"});
   for (std::size_t i = 0; i < labels.size(); ++i) {
     const fe::DofLabel& dof = labels[i];
-    dofs.row({i + 1, dof.node, direction_names()[static_cast<std::size_t>(dof.direction)], known(dof.x_m.x()),
-              known(dof.x_m.y()), known(dof.x_m.z())});
+    dofs.row({i + 1, dof.node, direction_names()[fe::slot(dof.direction)], known(dof.x_m.x()), known(dof.x_m.y()),
+              known(dof.x_m.z())});
   }
-  for (std::size_t i = 0; i < own.size(); ++i) {
+  for (std::size_t i = 0; i < own.size(); ++i)
     dofs.row({labels.size() + i + 1, own[i], "own", std::optional<double>(), std::optional<double>(), std::optional<double>()});
-  }
   dofs.save(file);
 }
 

@@ -83,13 +83,12 @@ void refuse_unknown(const InpPlan& plan) {
 
 void note_loads(InpParts& parts, const InpPlan& plan, const InpStage& stage) {
   std::map<std::string, long> first;
-  for (const InpCard* card : stage.unused) {
+  for (const InpCard* card : stage.unused)
     if (first.emplace(card->keyword, card->line).second)
       parts.notes.push_back(
           fmt::format("*{} (line {}) is left out: no step asks for modes of the structure under it, as a static step with "
                       "NLGEOM or one before *STEP, PERTURBATION does",
                       card->keyword, card->line));
-  }
   first.clear();
   for (const InpReading& reading : plan.readings)
     if (is_noted(reading.card->keyword)) first.emplace(reading.card->keyword, reading.card->line);

@@ -116,7 +116,7 @@ std::string InpCard::required(const std::string& parameter) const {
 
 void InpCard::allow(const std::vector<std::string>& known) const {
   for (const auto& [name, value] : parameters) {
-    if (name.empty() || std::ranges::find(known, name) != known.end()) continue;
+    if (name.empty() || contains(known, name)) continue;
     fail(fmt::format("unsupported parameter {}{}", name, did_you_mean(name, known)),
          "it would change what the card means; write the model without it");
   }

@@ -31,7 +31,7 @@ std::pair<int, long> referred(const InpParts& parts, const InpLine& line, std::s
   const std::string text = line.text(field);
   const int instance = instance_of(parts.scopes, text);
   if (instance < 0) return {parts.scope, line.integer(field)};
-  const std::size_t prefix = parts.scopes[static_cast<std::size_t>(instance)].name.size() + 1;
+  const std::size_t prefix = parts.scopes[fe::slot(instance)].name.size() + 1;
   return {instance, InpLine{line, {text.substr(prefix)}}.integer(0)};
 }
 
@@ -75,7 +75,7 @@ long generate_offset(const InpParts& parts, const InpLine& line, int scope, bool
 
 void read_inp_nodes(InpParts& parts, const InpCard& card) {
   card.allow({"NSET"});
-  const InpScope& scope = parts.scopes[static_cast<std::size_t>(parts.scope)];
+  const InpScope& scope = parts.scopes[fe::slot(parts.scope)];
   for (const InpLine& line : card.data) {
     const long written = line.integer(0), id = written + scope.node_offset;
     const Eigen::Vector3d x = line.vector(1);
@@ -102,12 +102,7 @@ void read_inp_elements(InpParts& parts, const InpCard& card) {
   bool open = false;
   for (const InpLine& line : card.data) {
     if (!open)
-      element = {line.integer(0) + parts.scopes[static_cast<std::size_t>(parts.scope)].element_offset,
-                 parts.scope,
-                 type,
-                 {},
-                 &card,
-                 &line};
+      element = {line.integer(0) + parts.scopes[fe::slot(parts.scope)].element_offset, parts.scope, type, {}, &card, &line};
     for (std::size_t i = open ? 0 : 1; i < line.fields.size(); ++i) element.nodes.push_back(parts.node_id(line, i));
     open = static_cast<int>(element.nodes.size()) < wanted;
     if (open) continue;
@@ -166,7 +161,7 @@ std::string InpParts::key_in(int in, const std::string& name) const {
 
 bool InpParts::is_number(const std::string& field) const {
   const int instance = instance_of(scopes, field);
-  return is_whole_number(instance < 0 ? field : field.substr(scopes[static_cast<std::size_t>(instance)].name.size() + 1));
+  return is_whole_number(instance < 0 ? field : field.substr(scopes[fe::slot(instance)].name.size() + 1));
 }
 
 long InpParts::node_id(const InpLine& line, std::size_t field) const {
@@ -263,7 +258,7 @@ std::string InpParts::set_name(const std::map<std::string, InpSet>& sets, const 
   if (set.scope == 0) return set.name;
   int same = 0;
   for (std::size_t i = 0; i < scopes.size(); ++i) same += sets.contains(key_in(static_cast<int>(i), set.name)) ? 1 : 0;
-  return same > 1 ? scopes[static_cast<std::size_t>(set.scope)].name + "." + set.name : set.name;
+  return same > 1 ? scopes[fe::slot(set.scope)].name + "." + set.name : set.name;
 }
 
 const InpCard* InpParts::card_after(const InpCard& card) const {

@@ -49,7 +49,7 @@ std::vector<IdRange> ranges_of(const InpPlan& plan, const char* keyword) {
   std::vector<IdRange> ranges(plan.scopes.size());
   for (const InpReading& reading : plan.readings) {
     if (reading.card->keyword != keyword) continue;
-    IdRange& range = ranges[static_cast<std::size_t>(reading.scope)];
+    IdRange& range = ranges[fe::slot(reading.scope)];
     for (const InpLine& line : reading.card->data) {
       if (!is_whole_number(line.fields[0])) continue;  // its reader tells what is wrong with it
       const long id = std::min(std::stol(line.fields[0]), largest_kept_apart);
@@ -62,7 +62,7 @@ std::vector<IdRange> ranges_of(const InpPlan& plan, const char* keyword) {
 
 /// What is added to the numbers of each scope, the assembly being the last to be given its numbers.
 std::vector<long> offsets_of(const InpFile& file, const std::vector<IdRange>& ranges) {
-  const auto count = static_cast<long>(ranges.size());
+  const auto count = std::ssize(ranges);
   long step = 1, last = 0;
   for (const IdRange& range : ranges) last = std::max(last, range.last);
   while (step <= last) step *= 10;

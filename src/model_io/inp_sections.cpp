@@ -30,10 +30,10 @@ int section_of_set(InpParts& parts, const InpCard& card, fe::Section section) {
 int any_material_of(InpParts& parts, const InpCard& card) {
   const std::string name = card.required("MATERIAL");
   const auto found = parts.materials.find(upper_case(name));
-  if (found == parts.materials.end()) {
-    const auto known = each_of(parts.model.materials, &fe::Material::name);
-    card.fail(fmt::format("material '{}' is not defined{}", name, did_you_mean(name, known)), "define it by *MATERIAL");
-  }
+  if (found == parts.materials.end())
+    card.fail(fmt::format("material '{}' is not defined{}", name,
+                          did_you_mean(name, each_of(parts.model.materials, &fe::Material::name))),
+              "define it by *MATERIAL");
   if (parts.model.materials[fe::slot(found->second)].youngs_modulus_Pa <= 0.0)
     card.fail(fmt::format("material '{}' has no *ELASTIC", name), "give E and nu");
   return found->second;
@@ -73,7 +73,7 @@ void add_beams(InpParts& parts, const InpCard& card, int material, int section, 
                const Eigen::Vector2d& centroid = Eigen::Vector2d::Zero()) {
   Eigen::Vector3d n1(0.0, 0.0, -1.0);
   if (card.data.size() > direction_line) n1 = card.data[direction_line].vector(0);
-  if (parts.is_turned()) n1 = (parts.scopes[static_cast<std::size_t>(parts.scope)].rotation * n1).eval();
+  if (parts.is_turned()) n1 = (parts.scopes[fe::slot(parts.scope)].rotation * n1).eval();
   for (const InpElement* element : parts.elements_of(card, InpKind::beam)) {
     if (element->type.find("OS") != std::string::npos)
       parts.note_once(
@@ -399,7 +399,7 @@ void read_inp_orientation(InpParts& parts, const InpCard& card) {
     b = card.data[0].vector(3);
   }
   InpOrientation axes = axes_through(card.data[0], a, b);
-  const InpScope& scope = parts.scopes[static_cast<std::size_t>(parts.scope)];
+  const InpScope& scope = parts.scopes[fe::slot(parts.scope)];
   // Nodes are turned with their instance already.
   if (scope.turned() && definition == "COORDINATES") axes = (axes * scope.rotation.transpose()).eval();
   parts.orientations[parts.key_here(card.required("NAME"))] = axes;
@@ -410,7 +410,7 @@ void read_inp_transform(InpParts& parts, const InpCard& card) {
   const std::string type = upper_case(card.get("TYPE", "R"));
   if (type != "R" && type != "C" && type != "S") card.fail(fmt::format("unsupported TYPE={}", type), "R, C and S are read");
   const InpLine& line = card.line_of(0, "the points a and b");
-  const InpScope& scope = parts.scopes[static_cast<std::size_t>(parts.scope)];
+  const InpScope& scope = parts.scopes[fe::slot(parts.scope)];
   const Eigen::Vector3d a = scope.rotation * line.vector(0), b = scope.rotation * line.vector(3);
   for (const long id : parts.set(parts.node_sets, card, card.required("NSET")).members) {
     if (type == "R") {

@@ -40,7 +40,7 @@ double half_thickness(const InpParts& parts, const InpSurface& surface) {
   double most = 0.0;
   for (const fe::Element& e : parts.model.elements)
     if (e.type == fe::ElementType::shell && shells.contains(e.id))
-      most = std::max(most, 0.5 * parts.model.sections[static_cast<std::size_t>(e.section)].thickness_m);
+      most = std::max(most, 0.5 * parts.model.sections[fe::slot(e.section)].thickness_m);
   return most;
 }
 
@@ -381,7 +381,7 @@ void settle_inp_constraints(InpParts& parts) {
         std::ranges::all_of(c.terms, [&](const fe::Constraint::Term& term) { return is_held(term.node, term.direction); });
     if (!all_held)
       at.fail(fmt::format("makes node {} follow others in degree of freedom {}, which *BOUNDARY holds",
-                          parts.node_name(parts.model.nodes[static_cast<std::size_t>(c.node)].id), c.direction + 1),
+                          parts.node_name(parts.model.nodes[fe::slot(c.node)].id), c.direction + 1),
               "take the node out of the support; what it follows may be held");
   }
   parts.model.constraints = std::move(kept);

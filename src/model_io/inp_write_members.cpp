@@ -92,8 +92,8 @@ void InpWriter::beams() {
         .first->second.rows.push_back({e.id, nodes});
   }
   for (const auto& [text, group] : groups) {
-    const fe::Section& s = model_.sections[static_cast<std::size_t>(group.first->section)];
-    const fe::Material& m = model_.materials[static_cast<std::size_t>(group.first->material)];
+    const fe::Section& s = model_.sections[fe::slot(group.first->section)];
+    const fe::Material& m = model_.materials[fe::slot(group.first->material)];
     if (flavour_ == InpFlavour::calculix) {
       expanded_section(element_block("B32R", group_name(*group.first), group.rows), s, m, group.axis, group.n1);
       continue;
@@ -111,7 +111,7 @@ std::vector<long> InpWriter::beam_ends(const fe::Element& e, fe::BeamGeometry& g
   geometry.offset_m = e.offset_m;
   std::vector<long> nodes;
   for (std::size_t end = 0; end < 2; ++end) {
-    const fe::Node& node = model_.nodes[static_cast<std::size_t>(e.nodes[end])];
+    const fe::Node& node = model_.nodes[fe::slot(e.nodes[end])];
     geometry.node_m[end] = node.x_m;
     nodes.push_back(node.id);
     if (e.offset_m[end].norm() <= 0.0) continue;
@@ -126,7 +126,7 @@ std::vector<long> InpWriter::beam_ends(const fe::Element& e, fe::BeamGeometry& g
 }
 
 std::string InpWriter::group_name(const fe::Element& e) const {
-  return e.group.empty() ? model_.sections[static_cast<std::size_t>(e.section)].name : e.group;
+  return e.group.empty() ? model_.sections[fe::slot(e.section)].name : e.group;
 }
 
 void InpWriter::bars_and_stays() {
@@ -139,15 +139,14 @@ void InpWriter::bars_and_stays() {
   for (std::size_t i = 0; i < model_.elements.size(); ++i) {
     const fe::Element& e = model_.elements[i];
     if (e.type != fe::ElementType::bar && e.type != fe::ElementType::stay) continue;
-    const fe::Section& s = model_.sections[static_cast<std::size_t>(e.section)];
-    const fe::Material& m = model_.materials[static_cast<std::size_t>(e.material)];
+    const fe::Section& s = model_.sections[fe::slot(e.section)];
+    const fe::Material& m = model_.materials[fe::slot(e.material)];
     double modulus = m.youngs_modulus_Pa;
     std::string name = m.name;
     if (e.type == fe::ElementType::stay) {
       const auto pull =
           static_cast<std::size_t>(state_.stay_pull_N.size()) > i ? state_.stay_pull_N[static_cast<Eigen::Index>(i)] : 0.0;
-      const Eigen::Vector3d chord =
-          model_.nodes[static_cast<std::size_t>(e.nodes[1])].x_m - model_.nodes[static_cast<std::size_t>(e.nodes[0])].x_m;
+      const Eigen::Vector3d chord = model_.nodes[fe::slot(e.nodes[1])].x_m - model_.nodes[fe::slot(e.nodes[0])].x_m;
       // Half the mass at each end, as in our own matrices; a truss would spread it.
       for (const int node : e.nodes) point_mass("stay_ends", node, 0.5 * m.density_kg_m3 * s.area_m2 * chord.norm());
       if (pull > 0.0) {
@@ -163,12 +162,12 @@ void InpWriter::bars_and_stays() {
   }
   for (const auto& [text, group] : groups) {
     const fe::Element& e = *group.first;
-    const fe::Material& m = model_.materials[static_cast<std::size_t>(e.material)];
+    const fe::Material& m = model_.materials[fe::slot(e.material)];
     const bool stay = e.type == fe::ElementType::stay;
     const std::string set = element_block("T3D2", group_name(e), group.rows);
     elements_ += fmt::format("*SOLID SECTION, ELSET={}, MATERIAL={}\n{}\n", set,
                              material(stay ? e.name : m.name, group.modulus, m.poisson_ratio, stay ? 0.0 : m.density_kg_m3),
-                             format_number(model_.sections[static_cast<std::size_t>(e.section)].area_m2));
+                             format_number(model_.sections[fe::slot(e.section)].area_m2));
   }
 }
 
@@ -192,7 +191,7 @@ void InpWriter::faces_and_blocks() {
   }
   for (const auto& [text, group] : groups) {
     const fe::Element& e = *group.first;
-    const fe::Material& m = model_.materials[static_cast<std::size_t>(e.material)];
+    const fe::Material& m = model_.materials[fe::slot(e.material)];
     const std::string material_name = material(m.name, m.youngs_modulus_Pa, m.poisson_ratio, m.density_kg_m3);
     if (e.type == fe::ElementType::solid) {
       // Of eight nodes with incompatible modes in both programs, as in ours.
@@ -204,7 +203,7 @@ void InpWriter::faces_and_blocks() {
       elements_ += fmt::format("*SOLID SECTION, ELSET={}, MATERIAL={}\n", set, material_name);
       continue;
     }
-    const fe::Section& s = model_.sections[static_cast<std::size_t>(e.section)];
+    const fe::Section& s = model_.sections[fe::slot(e.section)];
     const bool triangle = fe::is_triangle(e);
     if (triangle && flavour_ == InpFlavour::calculix)
       note("three-node shells are S3, of which CalculiX makes linear wedges: they bend too stiffly there");

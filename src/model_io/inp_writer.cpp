@@ -50,7 +50,7 @@ void InpWriter::heading() {
     supports_ += fmt::format("*NSET, NSET={}\n{}\n", set_name(name), node_id(node));
 }
 
-long InpWriter::node_id(int node) const { return model_.nodes[static_cast<std::size_t>(node)].id; }
+long InpWriter::node_id(int node) const { return model_.nodes[fe::slot(node)].id; }
 
 long InpWriter::add_node(const Eigen::Vector3d& x) {
   nodes_ += fmt::format("{}, {}, {}, {}\n", ++last_node_, format_number(x.x()), format_number(x.y()), format_number(x.z()));
@@ -133,8 +133,7 @@ void InpWriter::rigid_equations(long master, const Eigen::Vector3d& master_x, lo
 
 void InpWriter::links_and_supports() {
   for (const fe::RigidLink& link : model_.links) {
-    const fe::Node &master = model_.nodes[static_cast<std::size_t>(link.master)],
-                   &slave = model_.nodes[static_cast<std::size_t>(link.slave)];
+    const fe::Node &master = model_.nodes[fe::slot(link.master)], &slave = model_.nodes[fe::slot(link.slave)];
     const bool turns = std::ranges::any_of(model_.elements, [&](const fe::Element& e) {
       const bool holds = e.type == fe::ElementType::beam || e.type == fe::ElementType::shell;
       return holds && contains(e.nodes, link.slave);

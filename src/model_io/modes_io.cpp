@@ -64,10 +64,9 @@ void read_shapes(const std::filesystem::path& file, const std::set<std::string>&
   for (std::size_t row = 0; row < table.rows(); ++row) {
     if (left_out.contains(table.text(row, "mode"))) continue;
     const modal::ShapeDof dof{table.text(row, "point"), table.text(row, "direction")};
-    if (dof_at.emplace(std::pair{dof.point, dof.direction}, static_cast<Eigen::Index>(modes.dofs.size())).second)
-      modes.dofs.push_back(dof);
+    if (dof_at.emplace(std::pair{dof.point, dof.direction}, std::ssize(modes.dofs)).second) modes.dofs.push_back(dof);
   }
-  const auto n = static_cast<Eigen::Index>(modes.dofs.size());
+  const auto n = std::ssize(modes.dofs);
   modes.shapes = Eigen::MatrixXcd::Constant(n, modes.size(), kUnknown);
   for (std::size_t row = 0; row < table.rows(); ++row) {
     if (left_out.contains(table.text(row, "mode"))) continue;
@@ -131,7 +130,7 @@ modal::ModeSet read_modes(const std::filesystem::path& folder, std::vector<long>
       table.fail(row, "mode", fmt::format("mode '{}' appears twice", name), "give each mode a name of its own");
     modes.names.push_back(name);
     if (lines != nullptr) lines->push_back(table.line(row));
-    const auto i = static_cast<Eigen::Index>(modes.names.size()) - 1;
+    const auto i = std::ssize(modes.names) - 1;
     modes.frequency_Hz[i] = table.number(row, "frequency_Hz");
     if (modes.frequency_Hz[i] < 0.0 || modes.frequency_Hz[i] > kHighestFrequency_Hz)
       table.fail(row, "frequency_Hz",
@@ -160,15 +159,14 @@ modal::ModeSet to_mode_set(const fe::Model* model, const fe::ParametricSystem& s
   set.frequency_Hz = modes.frequency_Hz;
   set.frequency_std_Hz = set.damping_ratio = set.damping_ratio_std = Eigen::VectorXd::Constant(n, kUnknown);
   if (model == nullptr) {
-    for (const auto& dof : system.dofs)
-      set.dofs.push_back({dof.node, direction_names()[static_cast<std::size_t>(dof.direction)]});
+    for (const auto& dof : system.dofs) set.dofs.push_back({dof.node, direction_names()[fe::slot(dof.direction)]});
     set.shapes = modes.shapes.cast<std::complex<double>>();
     return set;
   }
   set.shapes = system.expand(modes.shapes).cast<std::complex<double>>();
   for (const auto& node : model->nodes)
     for (const auto& direction : direction_names()) set.dofs.push_back({std::to_string(node.id), direction});
-  TWINDECK_ASSERT(set.shapes.rows() == static_cast<Eigen::Index>(set.dofs.size()));
+  TWINDECK_ASSERT(set.shapes.rows() == std::ssize(set.dofs));
   return set;
 }
 

@@ -353,7 +353,7 @@ void read_scalar_mass(Parts& parts, const Card& card) {
 
 void finish_masses(Parts& parts) {
   for (const auto& [node, m] : parts.added_mass)
-    add_mass(parts, fmt::format("cmass_grid_{}", parts.model.nodes[static_cast<std::size_t>(node)].id), node, m);
+    add_mass(parts, fmt::format("cmass_grid_{}", parts.model.nodes[fe::slot(node)].id), node, m);
 }
 
 void read_direct_matrices(Parts& parts) {

@@ -27,8 +27,7 @@ fe::Element start_element(Parts& parts, const Card& card, fe::ElementType type, 
 std::string frames_of(const Card& card) {
   const std::string word = card.word(7);
   if (word.empty() || word == "0" || word == "1" || word == "2") return "GGG";
-  const bool known = word.size() == 3 && word.find_first_not_of("GB") == std::string::npos;
-  if (!known)
+  if (word.size() != 3 || word.find_first_not_of("GB") != std::string::npos)
     card.fail(fmt::format("OFFT is '{}', of which GGG and its kin with B are read", word),
               "give the offsets in the displacement system of the grids");
   return word;
@@ -88,7 +87,7 @@ void read_member(Parts& parts, const Card& card) {
   e.material = p.material;
   e.section = p.section;
   if (p.section2 >= 0) e.section2 = p.section2;
-  e.group = parts.model.sections[static_cast<std::size_t>(p.section)].name;
+  e.group = parts.model.sections[fe::slot(p.section)].name;
   const std::string frames = frames_of(card);
   const long a = card.integer(2), b = card.integer(3);
   e.offset_m = {offset_of(parts, card, 10, a, frames[1]), offset_of(parts, card, 13, b, frames[2])};
@@ -107,14 +106,12 @@ void read_rod(Parts& parts, const Card& card) {
   const std::size_t mid = own ? 3 : 1;
   const double added = rod_added_density(p, mid + 1, mid + 4), j = p.number_or(mid + 2, 0.0);
   e.material = parts.material(p, p.integer(mid), added, property_name(p));
-  fe::Section s;
-  s.name = e.group = property_name(p);
-  s.area_m2 = p.number(mid + 1);
-  e.section = parts.add_section(s);
+  e.group = property_name(p);
+  e.section = parts.add_section({.name = e.group, .area_m2 = p.number(mid + 1)});
   if (j > 0.0) {
     const double length = (parts.place(e.nodes[1]) - parts.place(e.nodes[0])).norm();
     if (!(length > 0.0)) card.fail("its two grids lie at one place", "give grids apart, or take the rod out");
-    const double g = parts.model.materials[static_cast<std::size_t>(e.material)].shear_modulus_Pa;
+    const double g = parts.model.materials[fe::slot(e.material)].shear_modulus_Pa;
     parts.twists.push_back({&card, e.nodes[0], e.nodes[1], g * j / length});
   }
   parts.model.elements.push_back(e);
@@ -164,11 +161,8 @@ void read_shell(Parts& parts, const Card& card) {
                         : "has MID2 other than MID1, which is not read",
            "give MID2 the material of MID1");
   if (p.integer_or(10, 0) != 0) p.fail("couples membrane and bending (MID4), which is not read", "leave MID4 blank");
-  fe::Section s;
-  s.name = e.group = name;
-  s.thickness_m = t;
-  s.bending_inertia_ratio = p.number_or(4, 1.0);
-  e.section = parts.add_section(s);
+  e.group = name;
+  e.section = parts.add_section({.name = name, .thickness_m = t, .bending_inertia_ratio = p.number_or(4, 1.0)});
   e.material = parts.material(p, membrane, p.number_or(7, 0.0) / t, name);
   if (p.integer_or(5, 0) != 0)
     parts.note_once("shells are thin plates here: the transverse shear that MID3 of PSHELL allows is left out");

@@ -65,8 +65,7 @@ void split_fixed(const std::string& text, SplitLine& line) {
 }
 
 std::string continuation_name(const std::string& field) {
-  return upper_case(
-      trimmed(field.substr(field.find_first_not_of("+*") == std::string::npos ? field.size() : field.find_first_not_of("+*"))));
+  return upper_case(trimmed(field.substr(std::min(field.find_first_not_of("+*"), field.size()))));
 }
 
 /// "SPC = 3" as "SPC" and "3"; "SUBCASE 1" as it is, with an empty value.
@@ -136,7 +135,7 @@ struct DeckReader {
     deck.case_.present = true;
     for (auto line = cend < bulk ? cend + 1 : lines.begin(); line != bulk; ++line) read_case_line(*line);
     std::string rest = upper_case(trimmed(bulk->text).substr(5));
-    rest.erase(std::remove(rest.begin(), rest.end(), ' '), rest.end());
+    std::erase(rest, ' ');
     if (rest != "BULK")
       fail(*bulk, "BEGIN", "starts a section of its own (a superelement), which is not read", "write one model");
     const auto second = std::find_if(bulk + 1, lines.end(), begins);

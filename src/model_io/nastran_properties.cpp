@@ -7,6 +7,7 @@
 #include <map>
 #include <optional>
 
+#include "core/lists.hpp"
 #include "model_io/profiles.hpp"
 
 /// Sections of CBAR and CBEAM. Nastran's element axes are ours: plane 1 is x-y, so that I1 is our inertia_z, I2 our inertia_y,
@@ -15,28 +16,27 @@ namespace twindeck::model_io::nastran {
 namespace {
 
 /// Area, I1, I2, I12, J, mass per length that is not structural: a station of PBEAM.
-struct Station {
-  std::array<double, 6> value{};
-};
+using Station = std::array<double, 6>;
 
 fe::Section to_section(const std::string& name, const Station& s, double k1, double k2) {
-  fe::Section section{.name = name, .area_m2 = s.value[0], .inertia_z_m4 = s.value[1]};
-  section.inertia_y_m4 = s.value[2];
-  section.inertia_yz_m4 = s.value[3];
-  section.torsion_m4 = s.value[4];
-  section.shear_area_y_m2 = k1 * s.value[0];
-  section.shear_area_z_m2 = k2 * s.value[0];
-  return section;
+  return {.name = name,
+          .area_m2 = s[0],
+          .inertia_y_m4 = s[2],
+          .inertia_z_m4 = s[1],
+          .inertia_yz_m4 = s[3],
+          .torsion_m4 = s[4],
+          .shear_area_y_m2 = k1 * s[0],
+          .shear_area_z_m2 = k2 * s[0]};
 }
 
 void check_station(const Card& card, const Station& s) {
   const std::array<const char*, 5> names = {"the area", "I1", "I2", "", "J"};
   for (const std::size_t i : {0U, 1U, 2U, 4U}) {
-    if (s.value[i] > 0.0) continue;
-    card.fail(fmt::format("{} is {:g}, expected a value above 0", names[i], s.value[i]),
+    if (s[i] > 0.0) continue;
+    card.fail(fmt::format("{} is {:g}, expected a value above 0", names[i], s[i]),
               i == 0 ? "give the area" : "a member without it is held by AUTOSPC there; give a small value, or use CROD");
   }
-  if (s.value[5] < 0.0) card.fail("the nonstructural mass is negative", "check the sign");
+  if (s[5] < 0.0) card.fail("the nonstructural mass is negative", "check the sign");
 }
 
 void refuse_values(const Card& card, std::size_t first, std::size_t count, const char* what) {
@@ -143,8 +143,7 @@ std::pair<std::string, std::size_t> profile_of(const Card& card) {
   const std::string type = card.word(3);
   const auto found = library().find(type);
   if (found == library().end()) {
-    std::vector<std::string> names;
-    for (const auto& [name, count] : library()) names.push_back(name);
+    const auto names = each_of(library(), [](const auto& known) { return known.first; });
     card.fail(fmt::format("section '{}' is not read, expected {}", type, fmt::join(names, ", ")),
               card.name == "PBARL" ? "give its A, I1, I2, J on a PBAR" : "give its A, I1, I2, J on a PBEAM");
   }
@@ -163,8 +162,8 @@ double poisson_ratio_of(Parts& parts, const Card& card) {
 
 /// Station at the fields from `i` on; blank ones as in `above`, which is end A.
 Station station_at(const Card& card, std::size_t i, const Station& above) {
-  Station s;
-  for (std::size_t k = 0; k < 6; ++k) s.value[k] = card.number_or(i + k, above.value[k]);
+  Station s{};
+  for (std::size_t k = 0; k < 6; ++k) s[k] = card.number_or(i + k, above[k]);
   return s;
 }
 
@@ -208,7 +207,7 @@ std::string property_name(const Card& property) { return lower_case(property.nam
 const Card& Parts::property(const DeckPlace& element, long id, const std::vector<std::string>& kinds) const {
   if (const auto found = properties.find(id); found != properties.end())
     for (const Card* card : found->second)
-      if (std::ranges::find(kinds, card->name) != kinds.end()) return *card;
+      if (contains(kinds, card->name)) return *card;
   element.fail(fmt::format("property {} is no {} of this deck", id, fmt::join(kinds, " or ")),
                "give the property, or mend its number");
 }
@@ -228,8 +227,7 @@ int Parts::material(const DeckPlace& from, long id, double added_density, const 
   const Card& card = *found->second;
   const std::string name = fmt::format("mat1_{}{}", id, added_density > 0.0 ? "_" + owner : "");
   if (const auto known = material_position.find(name); known != material_position.end()) return known->second;
-  fe::Material m;
-  m.name = name;
+  fe::Material m{.name = name};
   const double e = card.number_or(1, 0.0), g = card.number_or(2, 0.0);
   const bool has_ratio = !card.blank(3);
   m.poisson_ratio = card.number_or(3, 0.0);
@@ -257,12 +255,12 @@ MemberProperty bar_property(Parts& parts, const Card& element, long id) {
     return member(parts, card, library_section(parts, card, type, numbers(card, 8, n), name, poisson_ratio_of(parts, card)),
                   std::nullopt, card.number_or(8 + n, 0.0));
   }
-  const Station s{{card.number_or(2, 0.0), card.number_or(3, 0.0), card.number_or(4, 0.0), card.number_or(18, 0.0),
-                   card.number_or(5, 0.0), card.number_or(6, 0.0)}};
+  const Station s = {card.number_or(2, 0.0),  card.number_or(3, 0.0), card.number_or(4, 0.0),
+                     card.number_or(18, 0.0), card.number_or(5, 0.0), card.number_or(6, 0.0)};
   check_station(card, s);
   // K1, K2 blank: rigid in shear.
   const fe::Section section = to_section(name, s, card.number_or(16, 0.0), card.number_or(17, 0.0));
-  return member(parts, card, section, std::nullopt, s.value[5]);
+  return member(parts, card, section, std::nullopt, s[5]);
 }
 
 MemberProperty beam_property(Parts& parts, const Card& element, long id) {
@@ -276,11 +274,10 @@ MemberProperty beam_property(Parts& parts, const Card& element, long id) {
   while (is_output_word(card.text(i))) {
     const Station s = station_at(card, i + 2, a);
     check_station(card, s);
-    if (s.value != a.value && card.number_or(i + 1, 1.0) != 1.0)
+    if (s != a && card.number_or(i + 1, 1.0) != 1.0)
       card.fail("has a section of its own between its ends, which is not read", "split the members there");
-    if (s.value[5] != a.value[5])
-      card.fail("the nonstructural mass varies along the member, which is not read", "give one value");
-    if (s.value != a.value) b = s;
+    if (s[5] != a[5]) card.fail("the nonstructural mass varies along the member, which is not read", "give one value");
+    if (s != a) b = s;
     // YES: a line of stress points follows.
     i += upper_case(card.fields[i]) == "YES" ? 16 : 8;
   }
@@ -294,7 +291,7 @@ MemberProperty beam_property(Parts& parts, const Card& element, long id) {
   refuse_values(card, i + 12, 4, "a neutral axis beside its shear centre (N1, N2)");
   std::optional<fe::Section> other;
   if (b) other = to_section(name + "_b", *b, k1, k2);
-  return member(parts, card, to_section(name, a, k1, k2), other, a.value[5]);
+  return member(parts, card, to_section(name, a, k1, k2), other, a[5]);
 }
 
 }  // namespace twindeck::model_io::nastran

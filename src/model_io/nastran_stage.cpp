@@ -6,6 +6,7 @@
 #include <optional>
 #include <set>
 
+#include "core/lists.hpp"
 #include "model_io/deck_stage.hpp"
 #include "model_io/nastran_properties.hpp"
 
@@ -148,11 +149,9 @@ class StageReader {
     const bool hexahedron = e.nodes.size() == 8 || e.nodes.size() == 20;
     const auto& faces = solid_faces(hexahedron ? 8 : 4);  // their corners
     for (std::size_t face = 0; face < faces.size(); ++face) {
-      std::vector<int> nodes;
-      for (const std::size_t i : faces[face]) nodes.push_back(e.nodes[i]);
+      const auto nodes = each_of(faces[face], [&](std::size_t i) { return e.nodes[i]; });
       const auto at = std::ranges::find(nodes, g1);
-      const bool has_other = std::ranges::find(nodes, other) != nodes.end();
-      if (at == nodes.end() || has_other != hexahedron) continue;
+      if (at == nodes.end() || contains(nodes, other) != hexahedron) continue;
       if (hexahedron && nodes[static_cast<std::size_t>((at - nodes.begin()) + 2) % 4] != other) continue;
       return stage_.press_solid(card, id, face, p);
     }

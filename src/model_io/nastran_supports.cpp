@@ -161,11 +161,9 @@ std::set<long> chosen_multipoint(const Parts& parts) {
   const std::optional<long> chosen = parts.deck.case_control().mpc;
   std::set<long> sets;
   if (chosen) sets.insert(*chosen);
-  for (const Card& card : parts.deck.cards()) {
-    if (card.name == "MPCADD" && chosen && card.integer(0) == *chosen) {
+  for (const Card& card : parts.deck.cards())
+    if (card.name == "MPCADD" && chosen && card.integer(0) == *chosen)
       for (std::size_t i = 1; i < card.size(); ++i) sets.insert(card.integer(i));
-    }
-  }
   return sets;
 }
 
@@ -176,7 +174,7 @@ void read_equation_card(Parts& parts, const Card& card) {
   const double own = card.number(3);
   if (own == 0.0) card.fail("the factor of the first displacement is 0", "begin with the one that follows the others");
   Directions flags{};
-  flags[static_cast<std::size_t>(component)] = true;
+  flags[fe::slot(component)] = true;
   const Directions basic = basic_components(parts, card, grid, flags);
   const int direction = static_cast<int>(std::ranges::find(basic, true) - basic.begin());
   const double sign = parts.displacement_axes(card, grid)(component % 3, direction % 3) > 0.0 ? 1.0 : -1.0;
@@ -214,8 +212,7 @@ void read_rigid(Parts& parts, const Card& card) {
   list.fields.resize(last);
   for (const long grid : parts.grid_list(list, 3, true)) {
     // A dependent grid at which only rods and solids meet has no rotation to follow.
-    const bool whole = parts.is_whole(tied, parts.node(card, grid));
-    if (whole)
+    if (parts.is_whole(tied, parts.node(card, grid)))
       add_rigid(parts, card, independent, grid);
     else
       tie_some(parts, card, independent, grid, tied);

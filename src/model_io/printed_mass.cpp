@@ -26,9 +26,8 @@ std::vector<double> numbers_in(const std::string& line) {
 /// The next line with numbers.
 std::vector<double> numbers_below(std::ifstream& stream) {
   std::string line;
-  while (std::getline(stream, line)) {
+  while (std::getline(stream, line))
     if (std::vector<double> numbers = numbers_in(line); !numbers.empty()) return numbers;
-  }
   return {};
 }
 

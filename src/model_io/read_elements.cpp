@@ -80,8 +80,8 @@ Eigen::Vector3d read_vector(const io::CsvTable& table, std::size_t row, const st
 /// Two nodes at one place: said here, where the line is known.
 void check_length(const io::CsvTable& table, std::size_t row, const fe::Model& model, const fe::Element& element) {
   if (fe::node_count(element.type) != 2) return;
-  const auto& a = model.nodes[static_cast<std::size_t>(element.nodes[0])];
-  const auto& b = model.nodes[static_cast<std::size_t>(element.nodes[1])];
+  const auto& a = model.nodes[fe::slot(element.nodes[0])];
+  const auto& b = model.nodes[fe::slot(element.nodes[1])];
   const double length = (b.x_m + element.offset_m[1] - a.x_m - element.offset_m[0]).norm();
   if (length > 1e-9) return;
   table.fail(
@@ -93,7 +93,7 @@ void check_length(const io::CsvTable& table, std::size_t row, const fe::Model& m
 
 void check_section(const io::CsvTable& table, std::size_t row, const fe::Model& model, const fe::Element& element) {
   if (element.type == fe::ElementType::solid) return;
-  const fe::Section& section = model.sections[static_cast<std::size_t>(element.section)];
+  const fe::Section& section = model.sections[fe::slot(element.section)];
   if (element.type == fe::ElementType::shell && section.thickness_m <= 0.0)
     table.fail(row, "section", fmt::format("section '{}' has no thickness, which a shell needs", section.name),
                "fill thickness_m in sections.csv");
@@ -293,9 +293,7 @@ void read_supports(const std::filesystem::path& folder, fe::Model& model, const 
   if (!is_there(folder, "supports.csv")) return;
   const auto table = io::CsvTable::read(folder / "supports.csv", {"node", "x", "y", "z", "rx", "ry", "rz"}, {"support"});
   for (std::size_t row = 0; row < table.rows(); ++row) {
-    fe::Support support;
-    support.name = table.text(row, "support");
-    support.node = index.node(table, row, "node");
+    fe::Support support{.name = table.text(row, "support"), .node = index.node(table, row, "node")};
     require_one(table, row, direction_names(), "write 1 for the directions that it holds");
     for (std::size_t i = 0; i < 6; ++i) support.fixed[i] = read_flag(table, row, direction_names()[i], false);
     model.supports.push_back(support);

@@ -98,8 +98,7 @@ std::string points_and_cells(const fe::Model& model) {
          "</Points>\n<Cells>\n" + data_array("Int64", "connectivity", 1, lines(elements, connectivity)) +
          data_array(
              "Int64", "offsets", 1,
-             lines(elements,
-                   [&offset](const fe::Element& e) { return std::to_string(offset += static_cast<long>(e.nodes.size())); })) +
+             lines(elements, [&offset](const fe::Element& e) { return std::to_string(offset += std::ssize(e.nodes)); })) +
          data_array("UInt8", "types", 1, lines(elements, [](const fe::Element& e) { return std::to_string(vtk_cell(e)); })) +
          "</Cells>\n";
 }
@@ -109,7 +108,7 @@ std::string points_and_cells(const fe::Model& model) {
 void write_vtu(const fe::Model& model, const fe::ParametricSystem& system, const dynamics::EigenModes& modes,
                const std::filesystem::path& file) {
   const Eigen::MatrixXd full = system.expand(modes.shapes);
-  TWINDECK_ASSERT(full.rows() == 6 * static_cast<Eigen::Index>(model.nodes.size()));
+  TWINDECK_ASSERT(full.rows() == 6 * std::ssize(model.nodes));
   const auto groups = number_groups(model);
   std::string text =
       "<?xml version=\"1.0\"?>\n<VTKFile type=\"UnstructuredGrid\" version=\"1.0\" "

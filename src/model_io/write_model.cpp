@@ -14,7 +14,7 @@ using Row = std::vector<io::Cell>;
 
 io::Cell node_id(const fe::Model& model, int node) {
   if (node < 0) return "";
-  return model.nodes[static_cast<std::size_t>(node)].id;
+  return model.nodes[fe::slot(node)].id;
 }
 
 void write_parts(const fe::Model& model, const std::filesystem::path& folder) {
@@ -54,10 +54,10 @@ void write_elements(const fe::Model& model, const std::filesystem::path& folder)
                name_of(e.type),
                e.name,
                e.group,
-               model.materials[static_cast<std::size_t>(e.material)].name,
-               e.section < 0 ? "" : model.sections[static_cast<std::size_t>(e.section)].name};
+               model.materials[fe::slot(e.material)].name,
+               e.section < 0 ? "" : model.sections[fe::slot(e.section)].name};
     for (std::size_t i = 0; i < node_columns; ++i) row.push_back(node_id(model, i < e.nodes.size() ? e.nodes[i] : -1));
-    if (tapers) row.emplace_back(e.section2 < 0 ? "" : model.sections[static_cast<std::size_t>(e.section2)].name);
+    if (tapers) row.emplace_back(e.section2 < 0 ? "" : model.sections[fe::slot(e.section2)].name);
     for (const Eigen::Vector3d& v : {e.orientation, e.offset_m[0], e.offset_m[1]})
       for (int i = 0; i < 3; ++i) row.emplace_back(v[i]);
     row.emplace_back(static_cast<int>(e.releases));
@@ -74,8 +74,8 @@ void write_constraints(const fe::Model& model, const std::filesystem::path& fold
   io::CsvWriter rows({"constraint", "node", "direction", "of_node", "of_direction", "factor"});
   for (const fe::Constraint& c : model.constraints)
     for (const fe::Constraint::Term& term : c.terms)
-      rows.row({c.name, node_id(model, c.node), direction_names()[static_cast<std::size_t>(c.direction)],
-                node_id(model, term.node), direction_names()[static_cast<std::size_t>(term.direction)], term.factor});
+      rows.row({c.name, node_id(model, c.node), direction_names()[fe::slot(c.direction)], node_id(model, term.node),
+                direction_names()[fe::slot(term.direction)], term.factor});
   rows.save(folder / "constraints.csv");
 }
 
@@ -116,8 +116,7 @@ void write_stage_loads(const fe::Model& model, const std::filesystem::path& fold
   if (model.prestress.loads.empty()) return;
   io::CsvWriter rows({"load", "node", "direction", "value", "unit"});
   for (const fe::Prestress::Load& l : model.prestress.loads)
-    rows.row({model.prestress.load_case, node_id(model, l.node), direction_names()[static_cast<std::size_t>(l.direction)],
-              l.value,
+    rows.row({model.prestress.load_case, node_id(model, l.node), direction_names()[fe::slot(l.direction)], l.value,
               l.movement        ? "m"
               : l.direction < 3 ? "N"
                                 : "N m"});
