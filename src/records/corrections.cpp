@@ -186,7 +186,7 @@ void refuse_unknown_channels(const std::vector<Correction>& corrections, const s
 
 void correct(const std::vector<Correction>& corrections, FeatureRows& features) {
   if (corrections.empty()) return;
-  Eigen::VectorXd factors = Eigen::VectorXd::Ones(static_cast<Index>(features.rows.size()));
+  Eigen::VectorXd factors = Eigen::VectorXd::Ones(std::ssize(features.rows));
   for (std::size_t r = 0; r < features.rows.size(); ++r) {
     FeatureRow& row = features.rows[r];
     const bool by_channel = row.is_shape() || (!row.is_modal() && row.type != "stay_frequency_Hz");

@@ -32,8 +32,8 @@ const Part& named(const io::CsvTable& table, std::size_t at, const std::string& 
   const std::string text = table.text(at, column);
   const auto found = std::ranges::find(parts, text, &Part::name);
   if (found != parts.end()) return *found;
-  const auto names = each_of(parts, &Part::name);
-  table.fail(at, column, fmt::format("{} '{}' is not in {}{}", column, text, file, did_you_mean(text, names)),
+  table.fail(at, column,
+             fmt::format("{} '{}' is not in {}{}", column, text, file, did_you_mean(text, each_of(parts, &Part::name))),
              "add it there, or mend the name");
 }
 

@@ -283,10 +283,9 @@ class Variable {
     const std::uint64_t item = storage_bytes(static_cast<int>(std::min<std::uint32_t>(values.type, 99)));
     if (item == 0) fail(fmt::format("has numbers of a type {} that the format does not know", values.type));
     if (values.bytes % item != 0 || rows > values.bytes / item || values.bytes / item / rows != columns ||
-        values.bytes / item % rows != 0) {
+        values.bytes / item % rows != 0)
       fail(fmt::format("has an array '{}' of {} x {} values with {} bytes of data, expected {} a value", name, rows, columns,
                        values.bytes, item));
-    }
     MatArray array = part_;
     array.shape = {name, static_cast<Index>(rows), static_cast<Index>(columns)};
     array.storage = static_cast<int>(values.type);

@@ -50,7 +50,7 @@ matching::Measured assemble_measured(const io::CsvTable& table, const std::vecto
       table.fail(found.at(name).row, "mode", fmt::format("mode {} has no row of type frequency_Hz", name),
                  "add its frequency, or remove its other rows");
   std::ranges::stable_sort(order, [&](const auto& a, const auto& b) { return found.at(a).frequency < found.at(b).frequency; });
-  const auto n = static_cast<Index>(order.size());
+  const auto n = std::ssize(order);
   modal::ModeSet& modes = measured.modes;
   modes.frequency_Hz = modes.frequency_std_Hz = modes.damping_ratio = modes.damping_ratio_std = Eigen::VectorXd(n);
   std::vector<const matching::Channel*> used;
@@ -59,7 +59,7 @@ matching::Measured assemble_measured(const io::CsvTable& table, const std::vecto
       used.push_back(&channel);
   for (const matching::Channel* channel : used)
     modes.dofs.push_back({channel->point.empty() ? channel->name : channel->point, channel->name});
-  modes.shapes.resize(static_cast<Index>(used.size()), n);
+  modes.shapes.resize(std::ssize(used), n);
   for (Index i = 0; i < n; ++i) {
     const std::string& name = order[static_cast<std::size_t>(i)];
     const MeasuredMode& mode = found.at(name);

@@ -157,7 +157,7 @@ Record read(const fs::path& file, const ReadOptions& options) {
 }
 
 Samples read(const fs::path& file, const std::vector<Index>& columns, Index n_samples, const ReadOptions& options) {
-  Samples samples(n_samples, static_cast<Index>(columns.size()));
+  Samples samples(n_samples, std::ssize(columns));
   samples.setConstant(std::numeric_limits<double>::quiet_NaN());
   const auto put = [&](Index row, Index column, const Eigen::MatrixXd& block) {
     if (row + block.rows() > n_samples) throw InputError({file.string(), 0, ""}, "grows while it is read", "copy it first");

@@ -249,7 +249,7 @@ RecordInfo info_of(const Found& found, const ArrayChoice& choice) {
   RecordInfo info;
   const NamedArray& first = found.arrays[choice.data.front()];
   const bool matrix = choice.data.size() == 1;
-  const Index channels = matrix ? first.shorter() : static_cast<Index>(choice.data.size());
+  const Index channels = matrix ? first.shorter() : std::ssize(choice.data);
   const std::string kind = found.matlab ? "MAT 7.3" : "HDF5", item = found.matlab ? "array" : "dataset";
   // MATLAB's first dimension is the last in the file.
   const auto [rows, columns] = found.matlab ? std::pair(first.columns, first.rows) : std::pair(first.rows, first.columns);

@@ -48,7 +48,7 @@ RecordInfo scan_mat(const fs::path& file, const Visitor& visit) {
   const ArrayChoice choice = choose_arrays(shapes, mat.notes, file.string());
   const NamedArray& first = shapes[choice.data.front()];
   const bool matrix = choice.data.size() == 1;
-  const Index channels = matrix ? first.shorter() : static_cast<Index>(choice.data.size());
+  const Index channels = matrix ? first.shorter() : std::ssize(choice.data);
   RecordInfo info;
   for (const std::string& other : mat.notes) info.notes.push_back(other + ", left out");
   info.format =

@@ -238,7 +238,7 @@ void read_series(UniversalLines& in, const std::string& set_line, const Visitor&
   const std::string what = fmt::format("set 58 number {}", info.channels.size() + static_cast<std::size_t>(others) + 1);
   Series series = read_series_header(in, set_line, what);
   series.channel.position = std::ssize(info.channels) + others + 1;
-  Parts parts(visit, series.is_time() ? static_cast<Index>(info.channels.size()) : -1);
+  Parts parts(visit, series.is_time() ? std::ssize(info.channels) : -1);
   if (series.binary)
     read_binary_values(in, series, what, parts, info);
   else

@@ -130,9 +130,8 @@ void find_width(const std::vector<std::string>& lines, const std::vector<Run>& r
     return true;
   };
   while (layout.columns > 1 && named != layout.columns && layout.separator != ' ' &&
-         std::ranges::all_of(runs, [&](const Run& r) { return r.columns != longest.columns || is_empty(r); })) {
+         std::ranges::all_of(runs, [&](const Run& r) { return r.columns != longest.columns || is_empty(r); }))
     layout.fewest = --layout.columns;
-  }
   const bool full = std::ranges::any_of(runs, [&](const Run& run) { return run.columns == named; });
   if (named > longest.columns && full) layout.columns = named;
 }
