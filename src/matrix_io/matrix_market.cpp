@@ -101,16 +101,14 @@ std::vector<Entry> read_entries(MarketReader& reader, int n, long count) {
       reader.fail(fmt::format("has {} words, expected row, column and value", words.size()), "mend the line");
     const Entry entry{reader.number<int>(words[0]), reader.number<int>(words[1]), reader.number<double>(words[2]),
                       reader.line()};
-    if (entry.row < 1 || entry.row > n || entry.column < 1 || entry.column > n) {
+    if (entry.row < 1 || entry.row > n || entry.column < 1 || entry.column > n)
       reader.fail(fmt::format("entry ({}, {}) lies outside the {} x {} matrix", entry.row, entry.column, n, n),
                   "indices count from 1");
-    }
     entries.push_back({entry.row - 1, entry.column - 1, entry.value, entry.line});
   }
-  if (static_cast<long>(entries.size()) != count) {
+  if (std::ssize(entries) != count)
     reader.fail(fmt::format("holds {} entries, but its size line says {}", entries.size(), count),
                 "the file was cut off or edited", 0);
-  }
   return entries;
 }
 
@@ -151,10 +149,9 @@ SizeLine read_size(MarketReader& reader) {
     reader.fail(fmt::format("is {} x {}", words[0], words[1]), "a square matrix is expected");
   const long count = reader.number<long>(words[2]);
   const std::uintmax_t left = reader.bytes_left();
-  if (count < 0 || static_cast<std::uintmax_t>(count) > left) {
+  if (count < 0 || static_cast<std::uintmax_t>(count) > left)
     reader.fail(fmt::format("its size line says {} entries, but {} bytes follow", count, left),
                 "the file was cut off or edited");
-  }
   return {n, count};
 }
 
@@ -166,23 +163,19 @@ Contents read_square(MarketReader& reader) {
   std::vector<const Entry*> sorted;
   for (const Entry& e : entries) sorted.push_back(&e);
   const auto place = [](const Entry* e) { return std::pair(e->row, e->column); };
-  std::stable_sort(sorted.begin(), sorted.end(), [&](const Entry* a, const Entry* b) { return place(a) < place(b); });
-  const auto twice =
-      std::adjacent_find(sorted.begin(), sorted.end(), [&](const Entry* a, const Entry* b) { return place(a) == place(b); });
-  if (twice != sorted.end()) {
+  std::ranges::stable_sort(sorted, [&](const Entry* a, const Entry* b) { return place(a) < place(b); });
+  const auto twice = std::ranges::adjacent_find(sorted, [&](const Entry* a, const Entry* b) { return place(a) == place(b); });
+  if (twice != sorted.end())
     reader.fail(fmt::format("entry ({}, {}) stands twice", (*twice)->row + 1, (*twice)->column + 1),
                 "sum or remove one of the two", (*(twice + 1))->line);
-  }
   return {size.n, std::move(entries)};
 }
 
 void refuse_upper_triangle(const MarketReader& reader, const std::vector<Entry>& entries) {
-  for (const Entry& e : entries) {
-    if (e.row < e.column) {
+  for (const Entry& e : entries)
+    if (e.row < e.column)
       reader.fail(fmt::format("entry ({}, {}) lies above the diagonal of a symmetric matrix", e.row + 1, e.column + 1),
                   "write the lower triangle only, or call the matrix general", e.line);
-    }
-  }
 }
 
 }  // namespace
@@ -191,9 +184,8 @@ linalg::SparseMatrix symmetric_lower(const std::map<std::pair<long, long>, doubl
                                      const RefuseUnsymmetric& refuse) {
   constexpr double most_unsymmetric = 1e-9;  ///< [-]
   std::vector<double> diagonal(static_cast<std::size_t>(n), 0.0);
-  for (const auto& [at, value] : entries) {
+  for (const auto& [at, value] : entries)
     if (at.first == at.second) diagonal[static_cast<std::size_t>(at.first)] = value;
-  }
   std::vector<Eigen::Triplet<double, int>> lower;
   for (const auto& [at, value] : entries) {
     const auto mirrored = entries.find({at.second, at.first});
@@ -273,11 +265,10 @@ void write_matrix_market(const linalg::SparseMatrix& lower, const std::filesyste
 void write_full_matrix_market(const linalg::SparseMatrix& full, const std::filesystem::path& file) {
   TWINDECK_ASSERT(full.rows() == full.cols());
   const linalg::SparseMatrix transposed = full.transpose();
-  if (linalg::SparseMatrix(full - transposed).coeffs().isZero(0.0)) {
+  if (linalg::SparseMatrix(full - transposed).coeffs().isZero(0.0))
     write_entries(full.triangularView<Eigen::Lower>(), "symmetric", file);
-  } else {
+  else
     write_entries(full, "general", file);
-  }
 }
 
 }  // namespace twindeck::matrix_io

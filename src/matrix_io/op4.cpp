@@ -125,8 +125,7 @@ class Op4Reader : public Op4Source {
     next();
     const auto number_at = [&](std::size_t i) {
       const std::string field = line_text_.size() > i * header_width ? line_text_.substr(i * header_width, header_width) : "";
-      const auto first = field.find_first_not_of(' ');
-      return whole(first == std::string::npos ? "" : field.substr(first, field.find_last_not_of(' ') - first + 1));
+      return whole(std::string(io::without_blanks(field, " ")));
     };
     const long columns = number_at(0), rows = number_at(1), type = number_at(3);
     take_header(columns, rows, number_at(2), type);
@@ -159,7 +158,7 @@ class Op4Reader : public Op4Source {
 
   [[nodiscard]] double value_of(std::string text) const {
     text.erase(0, std::min(text.find_first_not_of(' '), text.size()));
-    std::replace(text.begin(), text.end(), 'D', 'E');
+    std::ranges::replace(text, 'D', 'E');
     if (text.starts_with('+')) text.erase(0, 1);
     double value = 0.0;
     const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
@@ -201,10 +200,9 @@ class Op4Reader : public Op4Source {
   void refuse_what_follows() {
     next();
     if (has_values()) next();
-    for (; !at_end_; next()) {
+    for (; !at_end_; next())
       if (line_text_.find_first_not_of(' ') != std::string::npos)
         fail("a second matrix follows, which is not read", "write every matrix into a file of its own");
-    }
   }
 
   std::string line_text_;
@@ -222,7 +220,7 @@ template <class T>
 T number_at(const std::string& bytes, std::size_t at, bool reversed) {
   std::array<char, sizeof(T)> raw{};
   std::copy_n(bytes.begin() + static_cast<std::ptrdiff_t>(at), sizeof(T), raw.begin());
-  if (reversed) std::reverse(raw.begin(), raw.end());
+  if (reversed) std::ranges::reverse(raw);
   T value;
   std::memcpy(&value, raw.data(), sizeof(T));
   return value;
@@ -296,7 +294,7 @@ class BinaryOp4 : public Op4Source {
     open_record();
     const long columns = integer(), rows = integer(), form = integer(), type = integer();
     take_header(columns, rows, form, type);
-    if (columns > static_cast<long>(bytes_.size()))
+    if (columns > std::ssize(bytes_))
       fail(fmt::format("says {} columns, more than a file of {} bytes holds", columns, bytes_.size()),
            "it was cut off or edited");
     big_ = rows < 0;

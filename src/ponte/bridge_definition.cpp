@@ -6,6 +6,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "core/lists.hpp"
 #include "ponte/definition_file.hpp"
 
 namespace twindeck::ponte {
@@ -245,10 +246,8 @@ DeckPoint read_point(DefinitionFile& file, const std::string& path, const DeckDe
 }
 
 const DeckDefinition& deck_of(DefinitionFile& file, const std::string& path, const std::vector<DeckDefinition>& decks) {
-  std::vector<std::string> names;
-  for (const DeckDefinition& deck : decks) names.push_back(deck.name);
-  const std::string name = file.choice(path, names);
-  return *std::find_if(decks.begin(), decks.end(), [&](const DeckDefinition& deck) { return deck.name == name; });
+  const std::string name = file.choice(path, each_of(decks, &DeckDefinition::name));
+  return *std::ranges::find(decks, name, &DeckDefinition::name);
 }
 
 DamperDefinition read_damper(DefinitionFile& file, const std::string& path, const std::vector<DeckDefinition>& decks) {
@@ -272,8 +271,7 @@ ParameterDefinition read_parameter(DefinitionFile& file, const std::string& path
                                                      {"area", fe::Target::area},
                                                      {"spring_stiffness", fe::Target::spring_stiffness},
                                                      {"point_mass", fe::Target::point_mass}};
-  std::vector<std::string> names;
-  for (const auto& [name, target] : targets) names.push_back(name);
+  const auto names = each_of(targets, [](const auto& target) { return target.first; });
   return {file.text(path + ".name"), targets.at(file.choice(path + ".target", names)), file.texts(path + ".of"),
           file.number(path + ".bound", "", {0.0, 0.99})};
 }
@@ -293,7 +291,7 @@ void read_site_pulls(DefinitionFile& file, BridgeDefinition& out) {
   const std::vector<std::string> stays = stay_names(out);
   for (const std::string& name : file.names_below("site_pull")) {
     const std::string path = "site_pull." + name;
-    if (std::find(stays.begin(), stays.end(), name) == stays.end())
+    if (!contains(stays, name))
       file.fail(path, "is no stay of this bridge" + did_you_mean(name, stays), "name a stay such as NE5");
     const double pull = file.number(path, "N", kPull);
     out.site_pull_N[name] = pull;
@@ -322,11 +320,8 @@ BridgeDefinition read_definition(DefinitionFile file) {
               static_cast<int>(file.integer("mesh.shells_across", 2, 40)),
               static_cast<int>(file.integer("mesh.shells_per_panel_along", 1, 20)),
               static_cast<int>(file.integer("mesh.members_per_panel", 1, 20))};
-  std::vector<std::string> materials;
-  for (const std::string name : {"concrete_normal", "concrete_light", "steel"}) {
-    out.materials.push_back(read_material(file, name));
-    materials.push_back(name);
-  }
+  const std::vector<std::string> materials = {"concrete_normal", "concrete_light", "steel"};
+  for (const std::string& name : materials) out.materials.push_back(read_material(file, name));
   const std::vector<std::string> stay_types = file.names_below("stay_type");
   for (const std::string& name : stay_types) out.stay_types.push_back(read_stay_type(file, name));
   for (const std::string name : {"foot", "cycle"}) out.decks.push_back(read_deck(file, name, materials, stay_types));

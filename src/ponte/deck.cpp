@@ -183,8 +183,8 @@ const DeckNodes::Line& DeckNodes::station_near(double s_m) const {
 }
 
 const DeckNodes::Line& DeckNodes::line_near(double s_m) const {
-  return *std::min_element(lines.begin(), lines.end(),
-                           [&](const Line& a, const Line& b) { return std::abs(a.s_m - s_m) < std::abs(b.s_m - s_m); });
+  return *std::ranges::min_element(lines,
+                                   [&](const Line& a, const Line& b) { return std::abs(a.s_m - s_m) < std::abs(b.s_m - s_m); });
 }
 
 DeckAxis::DeckAxis(const DeckDefinition& deck)

@@ -7,6 +7,7 @@
 #include <limits>
 #include <set>
 
+#include "core/lists.hpp"
 #include "core/units.hpp"
 #include "io/toml_value.hpp"
 
@@ -21,13 +22,11 @@ bool below(const std::string& path, const std::string& table) {
 // "deck.cycle.slab.all.thickness" without its list positions, for comparing keys of different list entries.
 std::string without_positions(const std::string& path) {
   std::string out;
-  std::size_t begin = 0;
-  while (begin <= path.size()) {
-    const std::size_t end = std::min(path.find('.', begin), path.size());
+  for (std::size_t begin = 0, end = 0; begin <= path.size(); begin = end + 1) {
+    end = std::min(path.find('.', begin), path.size());
     const std::string part = path.substr(begin, end - begin);
-    const bool position = !part.empty() && std::all_of(part.begin(), part.end(), [](char c) { return c >= '0' && c <= '9'; });
+    const bool position = !part.empty() && part.find_first_not_of("0123456789") == std::string::npos;
     if (!position) out += (out.empty() ? "" : ".") + part;
-    begin = end + 1;
   }
   return out;
 }
@@ -106,11 +105,11 @@ DefinitionFile::Value& DefinitionFile::find(const std::string& path) {
 double DefinitionFile::number(const std::string& path, const std::string& unit, Range range) {
   const Value& value = find(path);
   const double result = parse_quantity(value.text, unit, {file_, value.line, path});
-  if (!(result >= range.lower && result <= range.upper)) {
-    const std::string suffix = unit.empty() ? "" : " " + unit;
-    fail(path, fmt::format("is {}, expected a value from {:g} to {:g}{}", value.text, range.lower, range.upper, suffix),
+  if (!(result >= range.lower && result <= range.upper))
+    fail(path,
+         fmt::format("is {}, expected a value from {:g} to {:g}{}", value.text, range.lower, range.upper,
+                     unit.empty() ? "" : " " + unit),
          "correct the value or its unit");
-  }
   return result;
 }
 
@@ -129,7 +128,7 @@ std::string DefinitionFile::text(const std::string& path) {
 
 std::string DefinitionFile::choice(const std::string& path, const std::vector<std::string>& allowed) {
   const std::string value = text(path);
-  if (std::find(allowed.begin(), allowed.end(), value) == allowed.end())
+  if (!contains(allowed, value))
     fail(path,
          "is '" + value + "', expected one of " + fmt::format("{}", fmt::join(allowed, ", ")) + did_you_mean(value, allowed),
          "choose one of these");
@@ -156,18 +155,14 @@ std::map<std::string, double> DefinitionFile::numbers_below(const std::string& t
 }
 
 bool DefinitionFile::has(const std::string& path) const {
-  return values_.contains(path) ||
-         std::any_of(values_.begin(), values_.end(), [&](const auto& entry) { return below(entry.first, path); });
+  return values_.contains(path) || std::ranges::any_of(values_, [&](const auto& entry) { return below(entry.first, path); });
 }
 
 std::vector<std::string> DefinitionFile::names_below(const std::string& path) const {
   std::set<std::string> names;
-  for (const auto& [other, value] : values_) {
-    if (below(other, path)) {
-      const std::size_t begin = path.size() + 1;
-      names.insert(other.substr(begin, other.find('.', begin) - begin));
-    }
-  }
+  const std::size_t begin = path.size() + 1;
+  for (const auto& [other, value] : values_)
+    if (below(other, path)) names.insert(other.substr(begin, other.find('.', begin) - begin));
   return {names.begin(), names.end()};
 }
 
@@ -183,7 +178,7 @@ void DefinitionFile::check_overrides(const std::string& table) {
     if (!path.starts_with("change.") && !path.starts_with("variant")) bridge.push_back(path);
   for (const std::string& key : paths_below(table)) {
     const std::string target = key.substr(table.size() + 1);
-    if (std::find(bridge.begin(), bridge.end(), target) == bridge.end())
+    if (!contains(bridge, target))
       fail(key, "overrides '" + target + "', which this file does not have" + did_you_mean(target, bridge),
            "name a key by its dotted path, for example \"mast.infill_z\"");
     values_.at(key).known = true;
@@ -203,8 +198,7 @@ void DefinitionFile::apply(const std::string& table) {
 void DefinitionFile::set_number(const std::string& path, double value) {
   const auto found = values_.find(path);
   if (found == values_.end()) {
-    std::vector<std::string> known;
-    for (const auto& [other, unused] : values_) known.push_back(other);
+    const auto known = each_of(values_, [](const auto& entry) { return entry.first; });
     fail(path, "is not in this file" + did_you_mean(path, known), "name a key by its dotted path");
   }
   found->second.text = io::toml_number(value);
@@ -216,8 +210,8 @@ void DefinitionFile::offer_number(const std::string& path, double value) {
 }
 
 long DefinitionFile::line_of(const std::string& path) const {
-  const auto found = std::find_if(values_.begin(), values_.end(),
-                                  [&](const auto& entry) { return entry.first == path || below(entry.first, path); });
+  const auto found =
+      std::ranges::find_if(values_, [&](const auto& entry) { return entry.first == path || below(entry.first, path); });
   return found == values_.end() ? 0 : found->second.line;
 }
 
@@ -225,12 +219,10 @@ void DefinitionFile::refuse_unknown() const {
   std::set<std::string> known;
   for (const auto& [path, value] : values_)
     if (value.known) known.insert(without_positions(path));
-  for (const auto& [path, value] : values_) {
-    if (!value.known) {
-      const std::vector<std::string> names(known.begin(), known.end());
+  const std::vector<std::string> names(known.begin(), known.end());
+  for (const auto& [path, value] : values_)
+    if (!value.known)
       fail(path, "is an unknown key" + did_you_mean(without_positions(path), names), "remove it or correct its name");
-    }
-  }
 }
 
 }  // namespace twindeck::ponte

@@ -29,7 +29,7 @@ std::vector<std::string> names_in(DefinitionFile& file, const std::string& list)
 
 std::size_t position(const DefinitionFile& file, const std::string& list, const std::vector<std::string>& names,
                      const std::string& name) {
-  const auto found = std::find(names.begin(), names.end(), name);
+  const auto found = std::ranges::find(names, name);
   if (found == names.end())
     throw InputError({file.name(), 0, list}, "has no " + list + " '" + name + "'" + did_you_mean(name, names),
                      "name one of the " + list + "s of this file");
@@ -94,7 +94,7 @@ void add_parameters(fe::Model& model, const BridgeDefinition& definition) {
   for (const ParameterDefinition& p : definition.parameters) {
     const std::vector<std::string> known = fe::names_of_target(model, p.target);
     for (const std::string& of : p.of)
-      if (std::find(known.begin(), known.end(), of) == known.end())
+      if (std::ranges::find(known, of) == known.end())
         throw InputError({definition.source, 0, "parameter '" + p.name + "' of"},
                          "names '" + of + "', which the model does not have" + did_you_mean(of, known),
                          "name a material, a section or a group of springs or masses, as the target asks");
@@ -170,7 +170,7 @@ std::string part_of(const std::string& group) {
       {"damper", "dampers"},      {"foot", "decks"},          {"cycle", "decks"},          {"slab", "decks"},
       {"mast", "mast"},           {"stay", "stays"},          {"end_block", "end_blocks"}, {"rigid_connection", "end_blocks"},
       {"ramp", "ramps"},          {"pier", "piers"}};  // the first that fits
-  const auto found = std::find_if(parts.begin(), parts.end(), [&](const auto& part) { return group.starts_with(part.first); });
+  const auto found = std::ranges::find_if(parts, [&](const auto& part) { return group.starts_with(part.first); });
   return found == parts.end() ? "other" : found->second;
 }
 

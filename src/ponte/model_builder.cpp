@@ -5,7 +5,7 @@
 namespace twindeck::ponte {
 
 int ModelBuilder::add_node(const Eigen::Vector3d& x_m) {
-  model.nodes.push_back({static_cast<long>(model.nodes.size()) + 1, x_m});
+  model.nodes.push_back({std::ssize(model.nodes) + 1, x_m});
   return static_cast<int>(model.nodes.size()) - 1;
 }
 
@@ -25,7 +25,7 @@ int ModelBuilder::add_section(const fe::Section& section) {
 
 void ModelBuilder::add_element(fe::ElementType type, const std::string& section, const std::string& material,
                                std::vector<int> nodes, const Eigen::Vector3d& orientation) {
-  model.elements.push_back({.id = static_cast<long>(model.elements.size()) + 1,
+  model.elements.push_back({.id = std::ssize(model.elements) + 1,
                             .type = type,
                             .name = {},
                             .group = section,
@@ -36,7 +36,7 @@ void ModelBuilder::add_element(fe::ElementType type, const std::string& section,
 }
 
 void ModelBuilder::add_solid(const std::string& group, const std::string& material, std::vector<int> nodes) {
-  model.elements.push_back({.id = static_cast<long>(model.elements.size()) + 1,
+  model.elements.push_back({.id = std::ssize(model.elements) + 1,
                             .type = fe::ElementType::solid,
                             .name = {},
                             .group = group,

@@ -55,13 +55,12 @@ Block build_block(ModelBuilder& builder, const EndDefinition& ends, const EndFra
     return nodes[static_cast<std::size_t>((k * (along + 1) + j) * (across + 1) + i)];
   };
   const double top = frame.origin_m.z(), bottom = top - ends.block_height_m;
-  for (int k = 0; k <= up; ++k) {
+  for (int k = 0; k <= up; ++k)
     for (int j = 0; j <= along; ++j)
       for (int i = 0; i <= across; ++i)
         nodes.push_back(builder.add_node(frame.at(ends.block_gap_m + ends.block_length_m * j / along,
                                                   ends.block_width_m * (static_cast<double>(i) / across - 0.5),
                                                   bottom + ends.block_height_m * k / up)));
-  }
   for (int k = 0; k < up; ++k) {
     for (int j = 0; j < along; ++j) {
       for (int i = 0; i < across; ++i) {

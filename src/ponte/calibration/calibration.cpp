@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/lists.hpp"
 #include "fe/model.hpp"
 
 namespace twindeck::ponte {
@@ -35,7 +36,7 @@ updating::StructureData data_of(const Calibration& calibration, const Calibratio
 /// Whether a value can act on a variant: what only a change sets is not in `preliminary`; what a change sets anew is not in
 /// the others.
 bool acts(const Calibration& calibration, const CalibrationValue& value, const std::string& variant) {
-  return std::any_of(value.paths.begin(), value.paths.end(), [&](const std::string& path) {
+  return std::ranges::any_of(value.paths, [&](const std::string& path) {
     if (path.starts_with("change.")) return variant != "preliminary";
     if (variant == "preliminary") return true;
     for (const CalibrationValue& other : calibration.values)
@@ -157,9 +158,8 @@ Eigen::VectorXd starts(const Calibration& calibration) {
 }
 
 Calibration for_trial(Calibration calibration, const std::string& trial) {
-  std::vector<std::string> known;
-  for (const CalibrationTrial& one : calibration.trials) known.push_back(one.name);
-  const auto found = std::find(known.begin(), known.end(), trial);
+  std::vector<std::string> known = each_of(calibration.trials, &CalibrationTrial::name);
+  const auto found = std::ranges::find(known, trial);
   if (found == known.end())
     throw InputError({"--trial", 0, trial}, "is no [[trial]] of the calibration" + did_you_mean(trial, known),
                      fmt::format("name one of {}", fmt::join(known, ", ")));

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <limits>
 
+#include "core/lists.hpp"
 #include "ponte/definition_file.hpp"
 
 namespace twindeck::ponte {
@@ -93,7 +94,7 @@ CalibrationLimit read_limit(const Keys& keys) {
 CalibrationTrial read_trial(const Keys& keys) {
   CalibrationTrial out{keys.text("name"), keys.text("form"), {}, keys.number("whole_range_costs")};
   for (const std::string& kind : keys.texts("use")) {
-    const auto found = std::find(kKinds.begin(), kKinds.end(), kind);
+    const auto found = std::ranges::find(kKinds, kind);
     keys.expect(found != kKinds.end(), "use", "names '" + kind + "'", fmt::format("name some of {}", fmt::join(kKinds, ", ")));
     out.weight[static_cast<std::size_t>(found - kKinds.begin())] = 1.0;
   }
@@ -102,11 +103,10 @@ CalibrationTrial read_trial(const Keys& keys) {
 
 /// What is said of a variant needs a target of that variant, trials the forms that they name.
 void check_names(const Calibration& out, const std::string& file) {
-  std::vector<std::string> variants, forms;
-  for (const CalibrationTarget& target : out.targets) variants.push_back(target.variant);
-  for (const CalibrationForm& form : out.forms) forms.push_back(form.name);
+  const auto variants = each_of(out.targets, &CalibrationTarget::variant);
+  const auto forms = each_of(out.forms, &CalibrationForm::name);
   const auto check = [&](const std::vector<std::string>& known, const std::string& name, const std::string& of) {
-    if (std::find(known.begin(), known.end(), name) != known.end()) return;
+    if (contains(known, name)) return;
     throw InputError({file, 0, of}, "names '" + name + "'" + did_you_mean(name, known),
                      fmt::format("name one of {}", fmt::join(known, ", ")));
   };
@@ -152,7 +152,7 @@ std::string used_kinds(const CalibrationTrial& trial) {
 }
 
 std::string variable(std::string text) {
-  std::replace(text.begin(), text.end(), ' ', '_');
+  std::ranges::replace(text, ' ', '_');
   return text;
 }
 
@@ -162,18 +162,16 @@ std::vector<std::string> trade_columns(const Calibration& calibration) {
     out.push_back(target.variant + "_rms_pct");
     out.push_back(target.variant + "_worst_pct");
   }
-  for (const CalibrationTarget& target : calibration.targets) {
+  for (const CalibrationTarget& target : calibration.targets)
     for_each_force(calibration, target.variant, [&](const CalibrationForces& f, std::size_t i, Index) {
       const std::string column = target.variant + "_" + f.stays[i] + "_kN";
-      if (std::find(out.begin(), out.end(), column) == out.end()) out.push_back(column);
+      if (!contains(out, column)) out.push_back(column);
     });
-  }
   out.push_back("force_worst_pct");
-  for (const CalibrationTarget& target : calibration.targets) {
+  for (const CalibrationTarget& target : calibration.targets)
     for_each_mass(calibration, target.variant, [&](const CalibrationMass& mass, Index) {
       out.push_back(target.variant + "_" + variable(mass.known.name) + "_kg_m");
     });
-  }
   for (const CalibrationTarget& target : calibration.targets)
     for (const CalibrationLimit& limit : calibration.limits)
       if (limit.variant == target.variant) out.push_back(limit.variant + "_anchors_mm");
@@ -301,8 +299,7 @@ TradeTable::TradeTable(const Calibration& calibration) : csv_(trade_columns(cali
 
 void TradeTable::add(const CalibrationTrial& trial, const std::string& mesh, const Calibration& calibration,
                      const CalibrationResult& result) {
-  const auto on_edge =
-      std::count_if(result.part.begin(), result.part.end(), [](double part) { return !edge_of(part).empty(); });
+  const auto on_edge = std::ranges::count_if(result.part, [](double part) { return !edge_of(part).empty(); });
   std::vector<io::Cell> cells = {trial.name,
                                  trial.form,
                                  used_kinds(trial),
@@ -318,7 +315,7 @@ void TradeTable::add(const CalibrationTrial& trial, const std::string& mesh, con
     const std::string& variant = calibration.targets[t].variant;
     for_each_force(calibration, variant, [&](const CalibrationForces& f, std::size_t i, Index row) {
       const std::string name = variant + f.stays[i];
-      if (std::find(seen.begin(), seen.end(), name) != seen.end()) return;
+      if (contains(seen, name)) return;
       seen.push_back(name);
       const double force_N = result.answers[t].force_N[row], error = 100.0 * (force_N / f.force_N[i] - 1.0);
       if (std::abs(error) > std::abs(worst)) worst = error;
@@ -326,10 +323,9 @@ void TradeTable::add(const CalibrationTrial& trial, const std::string& mesh, con
     });
   }
   cells.emplace_back(worst);
-  for (std::size_t t = 0; t < calibration.targets.size(); ++t) {
+  for (std::size_t t = 0; t < calibration.targets.size(); ++t)
     for_each_mass(calibration, calibration.targets[t].variant,
                   [&](const CalibrationMass&, Index row) { cells.emplace_back(result.answers[t].mass_kg_m[row]); });
-  }
   for (std::size_t t = 0; t < calibration.targets.size(); ++t)
     if (result.answers[t].displacement_m.size() > 0) cells.emplace_back(1e3 * largest(result.answers[t].displacement_m));
   for (const double cost : result.costs) cells.emplace_back(cost);

@@ -3,16 +3,15 @@
 #include <algorithm>
 
 #include "core/error.hpp"
+#include "core/lists.hpp"
 
 namespace twindeck::ponte {
 
 const ConditionSettings& CampaignSettings::condition(const std::string& name) const {
-  const auto at =
-      std::find_if(conditions.begin(), conditions.end(), [&](const ConditionSettings& c) { return c.name == name; });
+  const auto at = std::ranges::find(conditions, name, &ConditionSettings::name);
   if (at != conditions.end()) return *at;
-  std::vector<std::string> known;
-  for (const ConditionSettings& c : conditions) known.push_back(c.name);
-  throw InputError({"", 0, "condition"}, "'" + name + "' is not there" + did_you_mean(name, known),
+  throw InputError({"", 0, "condition"},
+                   "'" + name + "' is not there" + did_you_mean(name, each_of(conditions, &ConditionSettings::name)),
                    "add a table [[condition]] of this name");
 }
 

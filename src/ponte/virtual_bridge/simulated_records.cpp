@@ -7,6 +7,7 @@
 
 #include "buffeting/loads.hpp"
 #include "core/error.hpp"
+#include "core/lists.hpp"
 #include "core/random.hpp"
 #include "matching/pairing.hpp"
 #include "sensors/logger.hpp"
@@ -23,8 +24,7 @@ using Eigen::VectorXd;
 constexpr double kWarmUp_s = 100.0;  // ten times as long as the longest-lived mode takes to forget its start by a factor 1/e
 
 std::vector<int> nodes_of(const BridgeState& state, const std::vector<sensors::LayoutPoint>& points) {
-  std::vector<Eigen::Vector3d> places;
-  for (const sensors::LayoutPoint& point : points) places.push_back(point.x_m);
+  std::vector<Eigen::Vector3d> places = each_of(points, &sensors::LayoutPoint::x_m);
   return sensors::nodes_at(state.chains.model, places, 0.05);
 }
 
@@ -86,8 +86,8 @@ void fit_dampers(const CampaignSettings& settings, ConditionModel& out, MatrixXd
   std::vector<VectorXd> columns;
   for (const fe::Spring& spring : model.springs) {
     if (!spring.group.starts_with("damper_")) continue;
-    const auto kind = std::find_if(settings.dampers.begin(), settings.dampers.end(),
-                                   [&](const DamperSettings& d) { return "damper_" + d.type == spring.group; });
+    const auto kind =
+        std::ranges::find_if(settings.dampers, [&](const DamperSettings& d) { return "damper_" + d.type == spring.group; });
     TWINDECK_ASSERT(kind != settings.dampers.end());
     transient::SlidingDamper damper;
     damper.stiffness_N_m = kind->mount_stiffness_N_m > 0.0 ? kind->mount_stiffness_N_m : spring.stiffness;
@@ -109,7 +109,7 @@ constexpr double kRampUp_s = 60.0;
 /// v' and w' at the aerodynamic nodes, one after the other. @return (n_samples × 2 n_nodes)
 MatrixXd gusts(const VirtualWind& virtual_wind, const CampaignSettings& settings, const RecordSettings& record,
                const std::vector<aero::Strip>& strips, const aero::Wind& wind, std::uint64_t seed) {
-  const auto n = static_cast<Index>(strips.size());
+  const auto n = std::ssize(strips);
   const Eigen::Vector3d across = Eigen::Vector3d::UnitZ().cross(wind.direction);
   MatrixXd out(static_cast<Index>(std::llround(record.duration_s * settings.rate_Hz)), 2 * n);
   for (const wind::Component component : {wind::Component::along, wind::Component::vertical}) {
@@ -212,8 +212,7 @@ Motion simulate(const ConditionModel& model, const CampaignSettings& settings, c
   Index warm_up = static_cast<Index>(std::lround(kWarmUp_s * settings.rate_Hz));
   if (record.kind == "free_decay") {
     warm_up = 0;
-    const auto at =
-        std::find_if(points.begin(), points.end(), [&](const sensors::LayoutPoint& p) { return p.name == record.point; });
+    const auto at = std::ranges::find(points, record.point, &sensors::LayoutPoint::name);
     TWINDECK_ASSERT(at != points.end());
     const MatrixXd down = at_channels(*model.state, model.basis.vectors, {sensors::channel_at(*at, "vertical", "")});
     const VectorXd load = -record.mass_kg * model.state->chains.model.gravity_m_s2 * down.transpose();

@@ -92,8 +92,8 @@ void solve(const Chain& chain, double pull_N, VectorXd& omega, MatrixXd& shapes)
 }  // namespace
 
 const fe::Element& stay_of(const fe::Model& model, const StayTest& test) {
-  const auto stay = std::find_if(model.elements.begin(), model.elements.end(),
-                                 [&](const fe::Element& e) { return e.type == fe::ElementType::stay && e.name == test.stay; });
+  const auto stay = std::ranges::find_if(
+      model.elements, [&](const fe::Element& e) { return e.type == fe::ElementType::stay && e.name == test.stay; });
   if (stay == model.elements.end())
     throw InputError({"", 0, "stay_test.stay"}, "'" + test.stay + "' is no stay of the virtual bridge", "name one such as NE8");
   return *stay;

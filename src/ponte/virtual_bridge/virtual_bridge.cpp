@@ -10,6 +10,7 @@
 #include <string>
 
 #include "core/error.hpp"
+#include "core/lists.hpp"
 #include "fe/uneven_shells.hpp"
 #include "io/csv.hpp"
 #include "matching/pairing.hpp"
@@ -44,7 +45,7 @@ void check_damper_types(const CampaignSettings& settings, const fe::Model& model
     if (!seen.insert(damper.type).second)
       throw InputError({"", 0, "damper"}, fmt::format("type '{}' stands twice", damper.type), "give each type one table");
   }
-  if (std::none_of(settings.conditions.begin(), settings.conditions.end(), [](const auto& c) { return c.dampers; })) return;
+  if (std::ranges::none_of(settings.conditions, [](const auto& c) { return c.dampers; })) return;
   for (const std::string& type : known)
     if (!seen.contains(type))
       throw InputError({"", 0, "damper"}, "has no table for type " + type, "add [[damper]] with its mount and friction");
@@ -131,11 +132,10 @@ VectorXd corrected_parameters(const VirtualBridge& bridge, const std::filesystem
   VectorXd theta = bridge.uncorrected;
   if (file.empty()) return theta;
   const auto table = io::CsvTable::read(file, {"parameter", "factor"});
-  std::vector<std::string> names;
-  for (const fe::Parameter& p : bridge.undivided.parameters) names.push_back(p.name);
+  std::vector<std::string> names = each_of(bridge.undivided.parameters, &fe::Parameter::name);
   for (std::size_t row = 0; row < table.rows(); ++row) {
     const std::string name = table.text(row, "parameter");
-    const auto at = std::find(names.begin(), names.end(), name);
+    const auto at = std::ranges::find(names, name);
     if (at == names.end())
       table.fail(row, "parameter", "'" + name + "' is no parameter of the virtual bridge" + did_you_mean(name, names));
     const double factor = table.number(row, "factor");
@@ -148,8 +148,7 @@ VectorXd corrected_parameters(const VirtualBridge& bridge, const std::filesystem
 VectorXd at_temperature(const VirtualBridge& bridge, const CampaignSettings& settings, VectorXd theta, double temperature_C) {
   for (const TemperatureEffect& effect : settings.temperature) {
     const auto& parameters = bridge.undivided.parameters;
-    const auto at =
-        std::find_if(parameters.begin(), parameters.end(), [&](const fe::Parameter& p) { return p.name == effect.parameter; });
+    const auto at = std::ranges::find(parameters, effect.parameter, &fe::Parameter::name);
     if (at == parameters.end())
       throw InputError({settings.bridge, 0, "temperature_effect"},
                        "'" + effect.parameter + "' is no parameter of the virtual bridge");
@@ -211,8 +210,7 @@ VectorXd imposed_damping(const BridgeState& state, const CampaignSettings& setti
 }
 
 MatrixXd at_channels(const BridgeState& state, const MatrixXd& x, const std::vector<sensors::LayoutChannel>& channels) {
-  std::vector<Eigen::Vector3d> places;
-  for (const sensors::LayoutChannel& channel : channels) places.push_back(channel.x_m);
+  std::vector<Eigen::Vector3d> places = each_of(channels, &sensors::LayoutChannel::x_m);
   const std::vector<int> nodes = sensors::nodes_at(state.chains.model, places, kSensorAtNode_m);
   const MatrixXd full = state.system.expand(x);
   MatrixXd out(std::ssize(channels), x.cols());
