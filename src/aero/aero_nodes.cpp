@@ -11,6 +11,7 @@
 #include <tuple>
 
 #include "core/error.hpp"
+#include "core/lists.hpp"
 
 namespace twindeck::aero {
 namespace {
@@ -66,8 +67,8 @@ void order(std::vector<CrossSection>& lines) {
       if ((b.centre - a.centre).norm() > chord.norm()) chord = b.centre - a.centre;
   // From south to north (or west to east), whatever the numbering.
   if (chord.x() < 0.0 || (chord.x() == 0.0 && chord.y() < 0.0)) chord = -chord;
-  std::sort(lines.begin(), lines.end(),
-            [&](const CrossSection& a, const CrossSection& b) { return a.centre.dot(chord) < b.centre.dot(chord); });
+  std::ranges::sort(lines,
+                    [&](const CrossSection& a, const CrossSection& b) { return a.centre.dot(chord) < b.centre.dot(chord); });
   for (std::size_t i = 1; i < lines.size(); ++i) {
     lines[i].station = lines[i - 1].station + (lines[i].centre - lines[i - 1].centre).norm();
     if (lines[i].across.dot(lines[i - 1].across) < 0.0) {
@@ -160,13 +161,11 @@ std::vector<int> named_nodes(const fe::Model& model, const std::string& deck) {
       throw InputError({model.source, 0, name}, "has the number of the point " + other->second.first,
                        "number the points of a deck from one end to the other");
   }
-  std::vector<int> nodes;
-  for (const auto& [number, point] : found) nodes.push_back(point.second);
-  return nodes;
+  return each_of(found, [](const auto& point) { return point.second.second; });
 }
 
 void add_named(const fe::Model& model, const std::string& deck, std::vector<int> named, AeroNodes& out, Triplets& entries) {
-  if (position(model, named.front()).x() > position(model, named.back()).x()) std::reverse(named.begin(), named.end());
+  if (position(model, named.front()).x() > position(model, named.back()).x()) std::ranges::reverse(named);
   std::vector<double> station(named.size(), 0.0);
   for (std::size_t i = 1; i < named.size(); ++i)
     station[i] = station[i - 1] + (position(model, named[i]) - position(model, named[i - 1])).norm();
@@ -235,7 +234,7 @@ AeroNodes find_aero_nodes(const fe::Model& model, const std::vector<std::string>
 std::vector<Strip> strips_of(const AeroNodes& nodes, const std::vector<std::string>& decks, const Wind& wind) {
   std::vector<Strip> strips;
   for (const AeroNode& node : nodes.nodes) {
-    const auto section = static_cast<int>(std::find(decks.begin(), decks.end(), node.deck) - decks.begin());
+    const auto section = static_cast<int>(std::ranges::find(decks, node.deck) - decks.begin());
     strips.push_back(aero::make_strip(node.deck, section, node.station_m, node.length_m, node.x_m, node.tangent, wind));
   }
   return strips;

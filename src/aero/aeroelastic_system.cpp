@@ -77,7 +77,7 @@ AeroelasticSystem::AeroelasticSystem(ReducedStructure structure, std::vector<Sec
       wind_(std::move(wind)),
       deployment_(std::move(deployment)) {
   TWINDECK_ASSERT(strips_.size() == motions_.size());
-  along_rule_.resize(3 * static_cast<Eigen::Index>(strips_.size()), structure_.size());
+  along_rule_.resize(3 * std::ssize(strips_), structure_.size());
   for (std::size_t i = 0; i < strips_.size(); ++i) {
     TWINDECK_ASSERT(motions_[i].cols() == structure_.size());
     TWINDECK_ASSERT(strips_[i].section >= 0 && static_cast<std::size_t>(strips_[i].section) < sections_.size());
@@ -130,7 +130,7 @@ AeroelasticSystem AeroelasticSystem::restricted(const std::vector<Eigen::Index>&
 }
 
 Eigen::MatrixXd state_matrix(const ReducedStructure& s, const AeroelasticSystem::Block& air) {
-  const Eigen::Index m = s.size(), n = static_cast<Eigen::Index>(s.maxwell.size());
+  const Eigen::Index m = s.size(), n = std::ssize(s.maxwell);
   Eigen::MatrixXd a = Eigen::MatrixXd::Zero(2 * m + n, 2 * m + n);
   a.block(0, m, m, m).setIdentity();
   a.block(m, 0, m, m).diagonal() -= s.omega_rad_s.cwiseAbs2();

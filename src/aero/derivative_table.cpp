@@ -13,7 +13,7 @@ namespace twindeck::aero {
 namespace {
 
 bool ascends(const std::vector<double>& axis) {
-  return !axis.empty() && std::adjacent_find(axis.begin(), axis.end(), std::greater_equal<>()) == axis.end();
+  return !axis.empty() && std::ranges::adjacent_find(axis, std::greater_equal<>()) == axis.end();
 }
 
 // Place between two neighbours of an axis; at or beyond an end, the end.
@@ -23,10 +23,10 @@ struct Between {
 };
 
 Between locate(const std::vector<double>& axis, double x) {
-  const auto last = static_cast<Eigen::Index>(axis.size()) - 1;
+  const auto last = std::ssize(axis) - 1;
   if (x <= axis.front()) return {0, 0, 0.0};
   if (x >= axis.back()) return {last, last, 0.0};
-  const auto i = static_cast<Eigen::Index>(std::upper_bound(axis.begin(), axis.end(), x) - axis.begin());
+  const auto i = static_cast<Eigen::Index>(std::ranges::upper_bound(axis, x) - axis.begin());
   const double a = axis[static_cast<std::size_t>(i - 1)], b = axis[static_cast<std::size_t>(i)];
   return {i - 1, i, (x - a) / (b - a)};
 }
@@ -55,11 +55,9 @@ DerivativeTable::DerivativeTable(Convention convention, std::vector<double> alph
     if (!ascends(curve.v_over_omegaB) || curve.v_over_omegaB.front() <= 0.0)
       throw InputError({source_, 0, name_of(convention, i)}, "its reduced velocities are empty, not positive or do not ascend",
                        "give positive reduced velocities in ascending order");
-    if (curve.value.rows() != static_cast<Eigen::Index>(alpha_rad_.size()) ||
-        curve.value.cols() != static_cast<Eigen::Index>(curve.v_over_omegaB.size())) {
+    if (curve.value.rows() != std::ssize(alpha_rad_) || curve.value.cols() != std::ssize(curve.v_over_omegaB))
       throw InputError({source_, 0, name_of(convention, i)}, "has no value for each angle of attack and reduced velocity",
                        "give the full grid");
-    }
   }
 }
 
@@ -75,7 +73,7 @@ bool DerivativeTable::covers_velocity(const DerivativeCurve& curve, double v) co
 
 bool DerivativeTable::covers(double alpha_rad, double v) const {
   return covers_angle(alpha_rad) &&
-         std::all_of(curves_.begin(), curves_.end(), [&](const DerivativeCurve& curve) { return covers_velocity(curve, v); });
+         std::ranges::all_of(curves_, [&](const DerivativeCurve& curve) { return covers_velocity(curve, v); });
 }
 
 DerivativeBlock DerivativeTable::at(double alpha_rad, double v) const {

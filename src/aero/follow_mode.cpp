@@ -181,17 +181,11 @@ std::optional<CriticalPoint> critical_point(const AeroelasticSystem& system, con
       std::optional<ComplexMode> middle = mode_at(system, at_low, low, guess);
       if (!middle) middle = mode_at(system, at_low, low, guess = 0.5 * (low + high));
       if (!middle) break;
-      if (middle->lambda.real() < 0.0) {
-        low = guess;
-        at_low = *middle;
-        f_low = middle->lambda.real();
-        f_high *= 0.5;
-      } else {
-        high = guess;
-        at_high = *middle;
-        f_high = middle->lambda.real();
-        f_low *= 0.5;
-      }
+      const bool below = middle->lambda.real() < 0.0;
+      (below ? low : high) = guess;
+      (below ? at_low : at_high) = *middle;
+      (below ? f_low : f_high) = middle->lambda.real();
+      (below ? f_high : f_low) *= 0.5;
     }
     return CriticalPoint{branch.mode,
                          high,

@@ -27,7 +27,7 @@ constexpr double share_of_slope = 0.25;
 constexpr double least_slope = 0.05;  ///< [1/rad] the rounding of coefficients with three decimals, half a degree apart
 
 double nearest_to_zero(const std::vector<double>& alpha) {
-  return *std::min_element(alpha.begin(), alpha.end(), [](double a, double b) { return std::abs(a) < std::abs(b); });
+  return *std::ranges::min_element(alpha, [](double a, double b) { return std::abs(a) < std::abs(b); });
 }
 
 std::optional<std::string> drag(const Polar& polar) {

@@ -27,9 +27,8 @@ StaticCoefficients mix(const StaticCoefficients& a, const StaticCoefficients& b,
 Polar::Polar(std::vector<double> alpha_rad, std::vector<StaticCoefficients> rows, std::string source)
     : alpha_rad_(std::move(alpha_rad)), rows_(std::move(rows)), source_(std::move(source)) {
   if (alpha_rad_.empty() || alpha_rad_.size() != rows_.size() ||
-      std::adjacent_find(alpha_rad_.begin(), alpha_rad_.end(), std::greater_equal<>()) != alpha_rad_.end()) {
+      std::ranges::adjacent_find(alpha_rad_, std::greater_equal<>()) != alpha_rad_.end())
     throw InputError({source_, 0, "alpha_deg"}, "is empty or does not ascend", "give one row an angle of attack, ascending");
-  }
 }
 
 Polar Polar::linear(const StaticCoefficients& at_zero) {
@@ -53,7 +52,7 @@ StaticCoefficients Polar::at(double alpha) const {
                      fmt::format("covers {:.6g} to {:.6g} degrees, {:.6g} is needed", alpha_rad_.front() * degrees,
                                  alpha_rad_.back() * degrees, alpha * degrees),
                      "extend the table, or lower the wind's angle of attack");
-  const auto upper = std::upper_bound(alpha_rad_.begin(), alpha_rad_.end(), alpha);
+  const auto upper = std::ranges::upper_bound(alpha_rad_, alpha);
   if (upper == alpha_rad_.end()) return rows_.back();
   const auto i = static_cast<std::size_t>(upper - alpha_rad_.begin());
   return mix(rows_[i - 1], rows_[i], (alpha - alpha_rad_[i - 1]) / (alpha_rad_[i] - alpha_rad_[i - 1]));

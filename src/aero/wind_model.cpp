@@ -8,6 +8,7 @@
 #include "aero/follow_mode.hpp"
 #include "aero/polar.hpp"
 #include "core/angle.hpp"
+#include "core/lists.hpp"
 #include "fe/assembly_elements.hpp"
 #include "linalg/cholesky.hpp"
 #include "transient/reduced_basis.hpp"
@@ -67,14 +68,14 @@ linalg::SparseMatrix stiffness_with(const dynamics::LoadedModel& loaded, const s
   for (const fe::Spring* damper : dampers)
     if (!damper->active && !damper->series && damper->stiffness > 0.0) missing.push_back(damper);
   if (missing.empty()) return stiffness;
-  Eigen::VectorXd spring(static_cast<Eigen::Index>(missing.size()));
+  Eigen::VectorXd spring(std::ssize(missing));
   for (std::size_t j = 0; j < missing.size(); ++j) spring[static_cast<Eigen::Index>(j)] = missing[j]->stiffness;
   stiffness += sum_of_outer_products(damper_patterns(loaded, missing), spring);
   return stiffness;
 }
 
 Eigen::MatrixXd damper_patterns(const dynamics::LoadedModel& loaded, const std::vector<const fe::Spring*>& dampers) {
-  Eigen::MatrixXd nodal = Eigen::MatrixXd::Zero(loaded.system.expansion.rows(), static_cast<Eigen::Index>(dampers.size()));
+  Eigen::MatrixXd nodal = Eigen::MatrixXd::Zero(loaded.system.expansion.rows(), std::ssize(dampers));
   for (std::size_t j = 0; j < dampers.size(); ++j) {
     const fe::Elongation e = fe::elongation_of(*dampers[j]);
     nodal.col(static_cast<Eigen::Index>(j))(e.dofs) = e.coefficient;
@@ -85,7 +86,7 @@ Eigen::MatrixXd damper_patterns(const dynamics::LoadedModel& loaded, const std::
 std::vector<SectionAero> sections_of(const WindSettings& config, const std::vector<DeckAerodynamics>& data,
                                      const std::string& set, double level) {
   const std::vector<std::string> known = {"standin", "quasi_steady"};
-  if (std::find(known.begin(), known.end(), set) == known.end())
+  if (!contains(known, set))
     throw InputError({"", 0, "sets"}, "'" + set + "' is no aerodynamic set" + did_you_mean(set, known),
                      "choose standin or quasi_steady");
   std::vector<SectionAero> sections;
@@ -108,9 +109,8 @@ AeroNodes aero_nodes_of(const WindSettings& config, const fe::Model* model, cons
   if (model == nullptr)
     throw InputError({source, 0, ""}, "is a matrix model, whose decks are not known",
                      "give a model folder with nodes and elements");
-  std::vector<std::string> groups;
-  for (const DeckWind& deck : config.decks) groups.push_back(deck.cross_group);
-  return find_aero_nodes(*model, config.deck_names(), groups, static_cast<int>(config.nodes_per_deck));
+  return find_aero_nodes(*model, config.deck_names(), each_of(config.decks, &DeckWind::cross_group),
+                         static_cast<int>(config.nodes_per_deck));
 }
 
 WindModel prepare_wind_model(const WindSettings& config, const dynamics::LoadedModel& loaded) {

@@ -3,6 +3,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "core/lists.hpp"
+
 namespace twindeck::aero {
 
 Wind WindSettings::wind() const {
@@ -10,11 +12,7 @@ Wind WindSettings::wind() const {
   return {density_kg_m3, {std::cos(angle), std::sin(angle), 0.0}};
 }
 
-std::vector<std::string> WindSettings::deck_names() const {
-  std::vector<std::string> names;
-  for (const DeckWind& deck : decks) names.push_back(deck.name);
-  return names;
-}
+std::vector<std::string> WindSettings::deck_names() const { return each_of(decks, &DeckWind::name); }
 
 Equations WindSettings::equation_choice() const {
   return equations == "as_printed" ? Equations::as_printed : Equations::consistent;

@@ -105,7 +105,7 @@ Instabilities find_instabilities(const WindSettings& config, const std::vector<F
 StaticResponse static_response(const WindSettings& config, const FittedSet& set, const Deployment& deployment,
                                const WindModel& model, const dynamics::LoadedModel& loaded, const linalg::Cholesky& factor) {
   StaticResponse response{set.name, deployment.name, {}, {}, {}};
-  Eigen::VectorXd at_nodes(6 * static_cast<Eigen::Index>(model.strips.size()));
+  Eigen::VectorXd at_nodes(6 * std::ssize(model.strips));
   for (std::size_t i = 0; i < model.strips.size(); ++i) {
     const Strip& strip = model.strips[i];
     const YawRule& rule = deployment.at(strip.deck, strip.yaw_rad);

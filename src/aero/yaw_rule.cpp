@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "core/error.hpp"
+#include "core/lists.hpp"
 
 namespace twindeck::aero {
 namespace {
@@ -40,11 +41,7 @@ const std::vector<YawRule>& published_yaw_rules() {
   return rules;
 }
 
-std::vector<std::string> published_yaw_rule_names() {
-  std::vector<std::string> names;
-  for (const YawRule& rule : published_yaw_rules()) names.push_back(rule.name);
-  return names;
-}
+std::vector<std::string> published_yaw_rule_names() { return each_of(published_yaw_rules(), &YawRule::name); }
 
 YawRule oblique_rule_H() {
   YawRule rule = published_yaw_rule("H");
@@ -56,7 +53,7 @@ YawRule oblique_rule_H() {
 
 const YawRule& published_yaw_rule(const std::string& name) {
   const std::vector<YawRule>& rules = published_yaw_rules();
-  const auto found = std::find_if(rules.begin(), rules.end(), [&](const YawRule& rule) { return rule.name == name; });
+  const auto found = std::ranges::find(rules, name, &YawRule::name);
   if (found == rules.end())
     throw InputError({"", 0, "rule"}, "'" + name + "' is no model of Table 11", "choose one of A, C, D, G, H, I");
   return *found;

@@ -28,7 +28,7 @@ MatrixXd gust_patterns(const BridgeInWind& bridge, const WindEventSettings& conf
 /// Unit vertical forces at the monitoring points, over the free degrees of freedom. @return (n × n_points)
 MatrixXd point_patterns(const dynamics::LoadedModel& loaded) {
   const std::vector<std::string> names = buffeting::accelerometers(*loaded.model);
-  MatrixXd nodal = MatrixXd::Zero(loaded.system.expansion.rows(), static_cast<Index>(names.size()));
+  MatrixXd nodal = MatrixXd::Zero(loaded.system.expansion.rows(), std::ssize(names));
   for (std::size_t p = 0; p < names.size(); ++p)
     nodal(6 * loaded.model->monitoring_points.at(names[p]) + 2, static_cast<Index>(p)) = 1.0;
   return loaded.system.expansion.transpose() * nodal;
@@ -112,7 +112,7 @@ MatrixXd nodal_patterns(const BridgeInWind& bridge, const aero::Deployment& depl
 wind::FieldDefinition field_at_nodes(const BridgeInWind& bridge, const wind::TurbulenceSet& set, double height_m,
                                      double speed_m_s, wind::Component component, bool frozen) {
   const Eigen::Vector3d along = bridge.aerodynamics.wind().direction, across = Eigen::Vector3d::UnitZ().cross(along);
-  const auto n = static_cast<Index>(bridge.model.strips.size());
+  const auto n = std::ssize(bridge.model.strips);
   wind::FieldDefinition field;
   field.component = component;
   field.position_m.resize(n, 3);

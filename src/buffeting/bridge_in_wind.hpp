@@ -21,7 +21,7 @@ struct Sensors {
   Eigen::MatrixXd motion;           ///< (3 n_points + 2 n_nodes × m) of each coordinate
   [[nodiscard]] Eigen::Index vertical(std::size_t point) const { return 3 * static_cast<Eigen::Index>(point) + 2; }
   [[nodiscard]] Eigen::Index lateral_row(std::size_t node) const {
-    return 3 * static_cast<Eigen::Index>(points.size()) + 2 * static_cast<Eigen::Index>(node);
+    return 3 * std::ssize(points) + 2 * static_cast<Eigen::Index>(node);
   }
   [[nodiscard]] Eigen::Index vertical_row(std::size_t node) const { return lateral_row(node) + 1; }
 };

@@ -67,8 +67,7 @@ std::vector<FieldCheck> FieldStatistics::checks() const {
     const std::string letter = wind::paper_letter(field.component);
     const Index n = field.size(), bins = static_cast<Index>(segment_ / 2 + 1);
     VectorXd mean_square = VectorXd::Zero(n), density = VectorXd::Zero(bins);
-    std::vector<MatrixXcd> cross(static_cast<std::size_t>(bins),
-                                 MatrixXcd::Zero(static_cast<Index>(chosen_.size()), static_cast<Index>(chosen_.size())));
+    std::vector<MatrixXcd> cross(static_cast<std::size_t>(bins), MatrixXcd::Zero(std::ssize(chosen_), std::ssize(chosen_)));
     for (const Seed& seed : seeds_) {
       mean_square += seed.mean_square.segment(static_cast<Index>(c) * n, n) / static_cast<double>(seeds_.size());
       density += seed.density[c] / static_cast<double>(seeds_.size());

@@ -25,11 +25,10 @@ class Errors {
     }
   }
   [[nodiscard]] bool complete() const {
-    for (const char* run : {"NS1", "NS2", "NS3"}) {
+    for (const char* run : {"NS1", "NS2", "NS3"})
       for (const char* event : {"August", "April"})
         for (int m = 1; m <= 8; ++m)
           if (!value_.contains(fmt::format("{}|{}|M{}", run, event, m))) return false;
-    }
     return true;
   }
   [[nodiscard]] double at(const std::string& run, const std::string& event, int m) const {

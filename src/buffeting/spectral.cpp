@@ -114,7 +114,7 @@ MatrixXcd impedance_slope(const aero::AeroelasticSystem& system, const SystemSlo
 VectorXd spectral_frequencies(double cutoff_Hz) {
   std::vector<double> f;
   for (double x = kFine_Hz; x < cutoff_Hz; x += x < kFineUpTo_Hz ? kFine_Hz : kCoarse_Hz) f.push_back(x);
-  return Eigen::Map<const VectorXd>(f.data(), static_cast<Index>(f.size()));
+  return Eigen::Map<const VectorXd>(f.data(), std::ssize(f));
 }
 
 MatrixXd response_spectra(const aero::AeroelasticSystem& system, double speed_m_s, const Eigen::Ref<const MatrixXd>& load,

@@ -20,7 +20,7 @@ using Eigen::VectorXd;
 /// Vertical RMS at the monitoring points.
 VectorXd vertical_rms(const BridgeInWind& bridge, const MatrixXd& acceleration) {
   const VectorXd all = buffeting::root_mean_squares(acceleration);
-  VectorXd out(static_cast<Index>(bridge.sensors.points.size()));
+  VectorXd out(std::ssize(bridge.sensors.points));
   for (std::size_t p = 0; p < bridge.sensors.points.size(); ++p) out[static_cast<Index>(p)] = all[bridge.sensors.vertical(p)];
   return out;
 }
@@ -36,7 +36,7 @@ void append(std::vector<TimeCheck>& checks, const std::string& name, const Bridg
 class StepwiseDampers {
  public:
   StepwiseDampers(const std::vector<const fe::Spring*>& dampers, double step_s) : dampers_(dampers), dt_(step_s) {
-    inner_ = inner_rate_ = within_ = VectorXd::Zero(static_cast<Index>(dampers.size()));
+    inner_ = inner_rate_ = within_ = VectorXd::Zero(std::ssize(dampers));
     for (std::size_t j = 0; j < dampers.size(); ++j) {
       const double dashpot = 2.0 * dampers[j]->damping / dt_, spring = dampers[j]->stiffness;
       const bool in_series = dampers[j]->series;
@@ -91,7 +91,7 @@ std::vector<TimeCheck> check_time_integration(const BridgeInWind& bridge, const 
   const WindEvent& event = checked.event;
   const aero::AeroelasticSystem system = system_of(bridge, deployment_of(bridge.aerodynamics, checked.run.model));
   const MatrixXd load = buffeting::load_matrix(system, event.speed_m_s, config.equation_choice(), config.components());
-  const MatrixXd points = bridge.sensors.motion.topRows(3 * static_cast<Index>(bridge.sensors.points.size()));
+  const MatrixXd points = bridge.sensors.motion.topRows(3 * std::ssize(bridge.sensors.points));
 
   // The same waves sampled twice as often.
   const auto at_step = [&](double step_s) {

@@ -134,7 +134,7 @@ SpectralMoments row_moments(const WindResponse& response, const VectorXd& f, std
 WindVariation UncertainBridge::variation(const VectorXd& u) const {
   const VectorXd x = random.values(u);
   WindVariation out;
-  out.parameter_change.resize(static_cast<Index>(parameters.size()));
+  out.parameter_change.resize(std::ssize(parameters));
   out.damping_ratio = damping_ratio;
   Index parameter = 0;
   for (std::size_t i = 0; i < random.inputs().size(); ++i) {
@@ -293,7 +293,7 @@ Excursion excursion(const UncertainMoments& moments, std::size_t k, double limit
     for (Index i = 0; i < n; ++i) u[i] = normal_number(seed, sample, static_cast<std::uint64_t>(i));
     found[sample] = first_excursion(moments.at(k, u), limit, duration_s).vanmarcke;
   }
-  std::sort(found.begin(), found.end());
+  std::ranges::sort(found);
   out.mean = 0.0;
   for (const double p : found) out.mean += p / samples;
   out.low = found[static_cast<std::size_t>(0.05 * samples)];

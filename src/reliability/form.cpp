@@ -130,7 +130,7 @@ void add(std::vector<DesignPoint>& points, const DesignPoint& found) {
 }
 
 bool away_from(const std::vector<DesignPoint>& points, const VectorXd& on_sphere) {
-  return std::none_of(points.begin(), points.end(), [&](const DesignPoint& p) {
+  return std::ranges::none_of(points, [&](const DesignPoint& p) {
     return p.u.dot(on_sphere) > p.u.squaredNorm();  // beyond its tangent plane
   });
 }
@@ -147,8 +147,8 @@ void look_for_further_points(Search& search, Index n, const FormOptions& options
   const double wanted = std::log(1.0 - options.test_level) / std::log1p(-std::min(cap, 0.999));
   const int points = static_cast<int>(std::clamp(std::ceil(wanted), 1.0, static_cast<double>(options.largest_test)));
   result.level_reached = 1.0 - std::pow(1.0 - cap, points);
-  const auto important = std::count_if(result.points.begin(), result.points.end(),
-                                       [&](const DesignPoint& p) { return p.u.norm() < beta * (1.0 + further); });
+  const auto important =
+      std::ranges::count_if(result.points, [&](const DesignPoint& p) { return p.u.norm() < beta * (1.0 + further); });
   result.strong_maximum = important == 1;
   int searches = 0;
   for (int k = 0; k < points; ++k) {
@@ -185,9 +185,9 @@ FormResult form(const LimitState& g, Index n, const FormOptions& options) {
   if (result.points.empty()) {
     result.status = {false, not_converged(search, options.starts + 1)};
   } else {
-    std::sort(result.points.begin(), result.points.end(), nearer);
+    std::ranges::sort(result.points, nearer);
     look_for_further_points(search, n, options, result);
-    std::sort(result.points.begin(), result.points.end(), nearer);
+    std::ranges::sort(result.points, nearer);
     result.probability = normal_tail(result.points.front().beta);
   }
   result.calls = search.calls;

@@ -167,7 +167,7 @@ RandomVector::RandomVector(std::vector<RandomInput> inputs, const MatrixXd& corr
   const Index m = dimension();
   factor_ = MatrixXd::Identity(m, m);
   if (correlation.size() == 0) return;
-  TWINDECK_ASSERT(correlation.rows() == static_cast<Index>(inputs_.size()) && correlation.cols() == correlation.rows());
+  TWINDECK_ASSERT(correlation.rows() == std::ssize(inputs_) && correlation.cols() == correlation.rows());
   MatrixXd of_random(m, m);
   for (Index i = 0; i < m; ++i)
     for (Index j = 0; j < m; ++j)
@@ -183,7 +183,7 @@ RandomVector::RandomVector(std::vector<RandomInput> inputs, const MatrixXd& corr
 VectorXd RandomVector::values(const Eigen::Ref<const VectorXd>& u) const {
   TWINDECK_ASSERT(u.size() == dimension());
   const VectorXd z = factor_ * u;
-  VectorXd x(static_cast<Index>(inputs_.size()));
+  VectorXd x(std::ssize(inputs_));
   for (std::size_t i = 0; i < inputs_.size(); ++i) x[static_cast<Index>(i)] = inputs_[i].mean;
   for (Index k = 0; k < z.size(); ++k) {
     const std::size_t i = random_[static_cast<std::size_t>(k)];

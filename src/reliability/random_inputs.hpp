@@ -37,7 +37,7 @@ class RandomVector {
   ///                     law that its mean excludes; a correlation matrix that is not positive definite
   explicit RandomVector(std::vector<RandomInput> inputs, const Eigen::MatrixXd& correlation = {});
 
-  [[nodiscard]] Eigen::Index dimension() const { return static_cast<Eigen::Index>(random_.size()); }  ///< of u
+  [[nodiscard]] Eigen::Index dimension() const { return std::ssize(random_); }  ///< of u
   [[nodiscard]] const std::vector<RandomInput>& inputs() const { return inputs_; }
   /// Name of the input that number k of u moves (the last one, where inputs are correlated).
   [[nodiscard]] const std::string& name(Eigen::Index k) const { return inputs_[random_[static_cast<std::size_t>(k)]].name; }

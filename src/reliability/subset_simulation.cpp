@@ -139,7 +139,7 @@ SubsetResult subset_simulation(const LimitState& g, Index n, const SubsetOptions
   for (result.levels = 1;; ++result.levels) {
     std::vector<Index> order(static_cast<std::size_t>(level.g.size()));
     std::iota(order.begin(), order.end(), 0);
-    std::stable_sort(order.begin(), order.end(), [&](Index a, Index b) { return level.g[a] < level.g[b]; });
+    std::ranges::stable_sort(order, [&](Index a, Index b) { return level.g[a] < level.g[b]; });
     const double limit = std::max(level.g[order[static_cast<std::size_t>(kept - 1)]], 0.0);
     const auto inside = static_cast<Index>((level.g.array() <= limit).count());
     const double share = static_cast<double>(inside) / static_cast<double>(level.g.size());

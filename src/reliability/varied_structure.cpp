@@ -25,7 +25,7 @@ VariedStructure::VariedStructure(const dynamics::LoadedModel& loaded, aero::Redu
 }
 
 VariedStructure::Varied VariedStructure::at(const WindVariation& variation) const {
-  TWINDECK_ASSERT(variation.parameter_change.size() == static_cast<Index>(stiffness_.size()));
+  TWINDECK_ASSERT(variation.parameter_change.size() == std::ssize(stiffness_));
   const Index m = structure_.size();
   Varied out{structure_, motions_, MatrixXd::Identity(m, m)};
   out.structure.damping_ratio.setConstant(variation.damping_ratio);

@@ -30,7 +30,7 @@ double wall_of(const fe::Model& model, const Wall& wall) {
   if (wall.thickness_m > 0.0) return wall.thickness_m / wall.sides;
   double least = std::numeric_limits<double>::infinity();
   for (const fe::Section& section : model.sections) {
-    if (std::find(wall.sections.begin(), wall.sections.end(), section.name) == wall.sections.end()) continue;
+    if (std::ranges::find(wall.sections, section.name) == wall.sections.end()) continue;
     const double there =
         section.thickness_m > 0.0 ? section.thickness_m / wall.sides : std::sqrt(section.area_m2 / std::numbers::pi);
     least = std::min(least, there);

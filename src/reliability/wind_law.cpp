@@ -98,7 +98,7 @@ double OverSpeed::probability(double speed, double beyond) const {
 double OverSpeed::damage(double speed) const {
   TWINDECK_ASSERT(value.size() >= 2);
   if (speed <= 0.0) return 0.0;
-  const auto above = std::upper_bound(speed_m_s.begin(), speed_m_s.end(), speed);
+  const auto above = std::ranges::upper_bound(speed_m_s, speed);
   const auto last = static_cast<std::size_t>(std::clamp<std::ptrdiff_t>(above - speed_m_s.begin(), 1, std::ssize(value) - 1));
   const double low = value[last - 1], high = value[last];
   if (!(low > 0.0 && high > 0.0)) return speed >= speed_m_s[last] ? high : low;

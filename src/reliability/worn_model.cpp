@@ -8,6 +8,7 @@
 #include <numbers>
 
 #include "core/error.hpp"
+#include "core/lists.hpp"
 
 namespace twindeck::reliability {
 
@@ -33,8 +34,7 @@ double Wall::remaining(const fe::Section& section, double years) const {
 }
 
 fe::Model worn_model(fe::Model model, const std::vector<Wall>& walls, double years) {
-  std::vector<std::string> known;
-  for (const fe::Section& section : model.sections) known.push_back(section.name);
+  std::vector<std::string> known = each_of(model.sections, &fe::Section::name);
   for (const Wall& wall : walls) {
     for (const std::string& name : wall.sections) {
       const auto at = std::ranges::find(model.sections, name, &fe::Section::name);

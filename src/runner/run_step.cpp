@@ -217,7 +217,7 @@ std::vector<fs::path> files_of(const fs::path& path) {
     // A manifest tells seconds and dates of another step; what counts is the files that it vouches for.
     if (entry.is_regular_file() && entry.path().filename() != "manifest.json") files.push_back(entry.path());
   }
-  std::sort(files.begin(), files.end());
+  std::ranges::sort(files);
   return files;
 }
 

@@ -40,7 +40,7 @@ const std::vector<std::string> known_steps = {"s0_campaign",   "s1_model",      
 
 void check_steps(const std::vector<std::string>& steps, const std::filesystem::path& file) {
   for (const std::string& step : steps) {
-    if (std::find(known_steps.begin(), known_steps.end(), step) != known_steps.end()) continue;
+    if (std::ranges::find(known_steps, step) != known_steps.end()) continue;
     throw InputError({file.string(), 0, "steps"}, fmt::format("'{}' is no step{}", step, did_you_mean(step, known_steps)),
                      fmt::format("the steps are {}", fmt::join(known_steps, ", ")));
   }

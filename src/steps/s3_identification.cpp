@@ -37,7 +37,7 @@ Status run(const steps::IdentificationConfig& config, steps::IdentificationInput
   // 3. Tables, exports, and the features that updating and diagnosis read. The first condition's stand at the top.
   steps::write_identification(read.campaign, results, decays, stays, config, context.out);
   if (results.empty()) {
-    const bool found = std::any_of(stays.begin(), stays.end(), [](const auto& stay) { return !stay.modes.empty(); });
+    const bool found = std::ranges::any_of(stays, [](const auto& stay) { return !stay.modes.empty(); });
     if (!found) return {false, "no stay shows harmonics; see stay.lowest and stay.highest, or record for longer"};
   } else if (results.front().modes.empty()) {
     return {false, steps::why_no_mode(results.front())};

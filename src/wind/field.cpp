@@ -15,21 +15,18 @@ using Eigen::Index;
 
 void check(const FieldDefinition& field) {
   const Index n = field.size();
-  if (n == 0 || field.speed_m_s.size() != n || field.sigma_m_s.size() != n || field.length_m.size() != n) {
+  if (n == 0 || field.speed_m_s.size() != n || field.sigma_m_s.size() != n || field.length_m.size() != n)
     throw InputError(
         {"", 0, "wind field"},
         fmt::format("has {} points, {} speeds, {} standard deviations and {} length scales, expected as many of each", n,
                     field.speed_m_s.size(), field.sigma_m_s.size(), field.length_m.size()));
-  }
-  for (Index j = 0; j < n; ++j) {
-    if (!(field.speed_m_s[j] > 0.0) || !(field.length_m[j] > 0.0) || !(field.sigma_m_s[j] >= 0.0)) {
+  for (Index j = 0; j < n; ++j)
+    if (!(field.speed_m_s[j] > 0.0) || !(field.length_m[j] > 0.0) || !(field.sigma_m_s[j] >= 0.0))
       throw InputError(
           {"", 0, "wind field"},
           fmt::format("has a mean speed of {} m/s, a length scale of {} m and a standard deviation of {} m/s at point "
                       "{}, expected positive numbers",
                       field.speed_m_s[j], field.length_m[j], field.sigma_m_s[j], j + 1));
-    }
-  }
 }
 
 double FieldDefinition::spectrum(Index j, double f_Hz) const {
@@ -42,9 +39,7 @@ bool FieldDefinition::same_turbulence(Index j, Index k) const {
 
 Eigen::VectorXd spectra(const FieldDefinition& field, double f_Hz) {
   Eigen::VectorXd s(field.size());
-  for (Index j = 0; j < s.size(); ++j) {
-    s[j] = j > 0 && field.same_turbulence(j, j - 1) ? s[j - 1] : field.spectrum(j, f_Hz);
-  }
+  for (Index j = 0; j < s.size(); ++j) s[j] = j > 0 && field.same_turbulence(j, j - 1) ? s[j - 1] : field.spectrum(j, f_Hz);
   return s;
 }
 

@@ -26,14 +26,13 @@ Simulator::Simulator(FieldDefinition field, const SimulationOptions& options) : 
   const double cutoff = options_.cutoff_Hz == 0.0 ? half : options_.cutoff_Hz;
   df_ = n_samples_ > 0 ? options_.rate_Hz / static_cast<double>(n_samples_) : 0.0;
   n_waves_ = df_ > 0.0 ? static_cast<Index>(std::ceil(cutoff / df_ * (1.0 - 1e-12))) - 1 : 0;
-  if (n_waves_ < 2 || cutoff > half || options_.anchors < 0 || options_.anchors == 1) {
+  if (n_waves_ < 2 || cutoff > half || options_.anchors < 0 || options_.anchors == 1)
     throw InputError(
         {"", 0, "wind simulation"},
         fmt::format("is asked for {} s at {} Hz with waves up to {} Hz and {} anchors, expected at least two waves below "
                     "half the rate, and no anchors or at least two",
                     options_.duration_s, options_.rate_Hz, cutoff, options_.anchors),
         "lengthen the record or raise the rate");
-  }
 
   const bool is_double = options_.frequencies == Frequencies::double_indexed;
   n_lines_ = is_double ? n_waves_ * field_.size() : n_waves_;
@@ -48,9 +47,8 @@ Simulator::Simulator(FieldDefinition field, const SimulationOptions& options) : 
   anchor_Hz_.back() = highest;
   for (const double f : anchor_Hz_) factor_.push_back(coherence_factor(field_, f));
 
-  if (!every) {
+  if (!every)
     for (std::size_t a = 1; a < factor_.size(); ++a) pair_.emplace_back(factor_[a - 1], factor_[a]);
-  }
   share_.resize(n_lines_);
   for (Index l = 1; l <= n_lines_; ++l) {
     const Bracket at = bracket(line_Hz_ * static_cast<double>(l));
@@ -74,8 +72,8 @@ Simulator::Simulator(FieldDefinition field, const SimulationOptions& options) : 
 }
 
 Simulator::Bracket Simulator::bracket(double f_Hz) const {
-  const auto above = std::upper_bound(anchor_Hz_.begin(), anchor_Hz_.end(), f_Hz * (1.0 + 1e-12));
-  const Index last = static_cast<Index>(anchor_Hz_.size()) - 2;
+  const auto above = std::ranges::upper_bound(anchor_Hz_, f_Hz * (1.0 + 1e-12));
+  const Index last = std::ssize(anchor_Hz_) - 2;
   const Index lower = std::clamp<Index>(above - anchor_Hz_.begin() - 1, 0, last);
   const double low = anchor_Hz_[static_cast<std::size_t>(lower)], high = anchor_Hz_[static_cast<std::size_t>(lower) + 1];
   return {lower, std::clamp(std::log(f_Hz / low) / std::log(high / low), 0.0, 1.0)};

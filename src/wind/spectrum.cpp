@@ -40,7 +40,7 @@ double SpectrumTable::density(double n) const {
   if (n <= 0.0 || std::log(n) <= log_n_[0]) return std::exp(log_density_[0]);
   const double x = std::log(n);
   if (x >= log_n_[last]) return std::exp(log_density_[last] + kInertialSlope * (x - log_n_[last]));
-  const Index i = std::upper_bound(log_n_.begin(), log_n_.end(), x) - log_n_.begin();
+  const Index i = std::ranges::upper_bound(log_n_, x) - log_n_.begin();
   const double share = (x - log_n_[i - 1]) / (log_n_[i] - log_n_[i - 1]);
   return std::exp((1.0 - share) * log_density_[i - 1] + share * log_density_[i]);
 }

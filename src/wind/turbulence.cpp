@@ -29,7 +29,7 @@ CoherenceTable::CoherenceTable(Eigen::VectorXd x, Eigen::VectorXd gamma) : x_(st
 
 double CoherenceTable::at(double x) const {
   if (x > x_[x_.size() - 1]) return 0.0;
-  const Eigen::Index i = std::min<Eigen::Index>(std::upper_bound(x_.begin(), x_.end(), x) - x_.begin(), x_.size() - 1);
+  const Eigen::Index i = std::min<Eigen::Index>(std::ranges::upper_bound(x_, x) - x_.begin(), x_.size() - 1);
   const double share = (x - x_[i - 1]) / (x_[i] - x_[i - 1]);
   return (1.0 - share) * gamma_[i - 1] + share * gamma_[i];
 }

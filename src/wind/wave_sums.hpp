@@ -22,7 +22,7 @@ class FactorPair {
     int column;
     double low, high;
   };
-  [[nodiscard]] Eigen::Index size() const { return static_cast<Eigen::Index>(apart_.size()); }
+  [[nodiscard]] Eigen::Index size() const { return std::ssize(apart_); }
   [[nodiscard]] const Entry* row(Eigen::Index j) const { return entries_.data() + begin_[static_cast<std::size_t>(j)]; }
   [[nodiscard]] int entries(Eigen::Index j) const {
     return static_cast<int>(begin_[static_cast<std::size_t>(j) + 1] - begin_[static_cast<std::size_t>(j)]);

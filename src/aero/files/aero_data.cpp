@@ -65,7 +65,7 @@ void fill_slopes(const std::vector<double>& alpha, std::vector<StaticCoefficient
 Polar read_polar(const std::filesystem::path& file) {
   const std::vector<std::string> slopes = {"dC_D_per_rad", "dC_L_per_rad", "dC_M_per_rad"};
   const io::CsvTable table = io::CsvTable::read(file, {"alpha_deg", "C_D", "C_L", "C_M"}, slopes);
-  const auto given = std::count_if(slopes.begin(), slopes.end(), [&](const std::string& name) { return table.has(name); });
+  const auto given = std::ranges::count_if(slopes, [&](const std::string& name) { return table.has(name); });
   if (given != 0 && given != 3)
     throw InputError({file.string(), 1, "dC_L_per_rad"}, "only some of the three slopes are given", "give all three or none");
   if (table.rows() == 1)
@@ -103,7 +103,7 @@ DerivativeTable read_flutter_derivatives(const std::filesystem::path& file, OutO
   std::map<std::pair<double, double>, std::size_t> row_at;
   std::vector<double> alpha, speed;
   const auto add = [](std::vector<double>& axis, double value) {
-    const auto place = std::lower_bound(axis.begin(), axis.end(), value);
+    const auto place = std::ranges::lower_bound(axis, value);
     if (place == axis.end() || *place != value) axis.insert(place, value);
   };
   for (std::size_t i = 0; i < table.rows(); ++i) {
@@ -123,12 +123,11 @@ DerivativeTable read_flutter_derivatives(const std::filesystem::path& file, OutO
   std::array<DerivativeCurve, 18> curves;
   for (std::size_t d = 0; d < 18; ++d) {
     curves[d].v_over_omegaB = speed;
-    curves[d].value.resize(static_cast<Eigen::Index>(alpha.size()), static_cast<Eigen::Index>(speed.size()));
-    for (std::size_t i = 0; i < alpha.size(); ++i) {
+    curves[d].value.resize(std::ssize(alpha), std::ssize(speed));
+    for (std::size_t i = 0; i < alpha.size(); ++i)
       for (std::size_t j = 0; j < speed.size(); ++j)
         curves[d].value(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j)) =
             coefficient(table, row_at.at({alpha[i], speed[j]}), name_of(convention, static_cast<int>(d)));
-    }
   }
   return {convention, std::move(alpha), std::move(curves), file.string(), below, above};
 }

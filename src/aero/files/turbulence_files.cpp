@@ -47,7 +47,7 @@ std::array<Curve, 3> read_curves(const io::CsvTable& table, const std::filesyste
   }
   for (const wind::Component c : wind::components) {
     const auto rows = curves[static_cast<std::size_t>(c)].rows.size();
-    const bool is_wanted = std::find(wanted.begin(), wanted.end(), c) != wanted.end();
+    const bool is_wanted = std::ranges::find(wanted, c) != wanted.end();
     if (rows < 2 && (is_wanted || rows > 0))
       throw InputError({file.string(), 0, "component"},
                        fmt::format("has too few rows of {} ({}), expected at least two", wind::paper_letter(c), rows),

@@ -63,13 +63,11 @@ void write_critical(const std::vector<aero::CriticalRow>& rows, const Aerodynami
 void write_damping(const std::vector<aero::DampingCurves>& curves, const std::filesystem::path& file) {
   io::CsvWriter csv(
       {"set", "model", "dampers", "structural_damping_pct", "mode", "V_m_s", "frequency_Hz", "damping_ratio_pct"});
-  for (const aero::DampingCurves& curve : curves) {
-    for (const aero::Branch& branch : curve.branches) {
+  for (const aero::DampingCurves& curve : curves)
+    for (const aero::Branch& branch : curve.branches)
       for (std::size_t i = 0; i < branch.points.size(); ++i)
         csv.row({curve.set, curve.model, on_off(curve.dampers), 100.0 * curve.structural_damping, branch.mode,
                  branch.speed_m_s[i], branch.points[i].frequency_Hz(), 100.0 * branch.points[i].damping_ratio()});
-    }
-  }
   csv.save(file);
 }
 

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <set>
 
+#include "core/lists.hpp"
 #include "io/atomic.hpp"
 
 namespace twindeck::steps {
@@ -75,9 +76,8 @@ std::vector<RecordFile> record_files(const ponte::CampaignSettings& settings,
   };
   for (const ponte::RecordSettings& record : settings.records) {
     (void)settings.condition(record.condition);
-    std::vector<std::string> names;
-    for (const sensors::LayoutChannel& channel : sensors::channels_of(layout, record.setup)) names.push_back(channel.channel);
-    add(record.setup, record.kind, record.condition, names);
+    add(record.setup, record.kind, record.condition,
+        each_of(sensors::channels_of(layout, record.setup), &sensors::LayoutChannel::channel));
   }
   for (const ponte::StayTest& test : settings.stays) add(test.stay, "stay", test.condition, {test.stay});
   return files;

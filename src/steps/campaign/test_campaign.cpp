@@ -79,7 +79,7 @@ ponte::VirtualWind read_virtual_wind(runner::StepContext& context, const ponte::
 void refuse_unknown_names(const ponte::CampaignSettings& settings, const CampaignInputs& read) {
   for (const ponte::RecordSettings& record : settings.records) {
     const auto is_its = [&](const sensors::LayoutPoint& point) { return point.name == record.point; };
-    if (record.kind == "free_decay" && std::none_of(read.points.begin(), read.points.end(), is_its))
+    if (record.kind == "free_decay" && std::ranges::none_of(read.points, is_its))
       throw InputError({"", 0, "record.point"}, "'" + record.point + "' is no point of the layout", "name a row of points.csv");
   }
   for (const ponte::StayTest& test : settings.stays) static_cast<void>(ponte::stay_of(read.bridge.undivided, test));

@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 
+#include "core/lists.hpp"
 #include "diagnosis/bar_stays_effect.hpp"
 #include "diagnosis/extended_model.hpp"
 #include "diagnosis/visibility.hpp"
@@ -254,8 +255,7 @@ void write_unknowns(const Inference& inference, const Diagnosis& result, const s
   const Eigen::MatrixXd l = result.after.total_factor.triangularView<Eigen::Lower>().solve(j);
   for (std::size_t i = 0; i < nuisances.size(); ++i) {
     const auto k = static_cast<Index>(i);
-    const bool bounded =
-        std::find(result.on_bounds.begin(), result.on_bounds.end(), nuisances[i].name) != result.on_bounds.end();
+    const bool bounded = contains(result.on_bounds, nuisances[i].name);
     csv.row({nuisances[i].name, result.before.map.x[k], result.after.map.x[k], l.col(k).squaredNorm(),
              bounded ? "on bound before" : ""});
   }

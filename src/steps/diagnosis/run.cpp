@@ -180,7 +180,7 @@ std::vector<diagnosis::Hypothesis> read_causes(const DiagnosisConfig& config, ru
   if (config.further_causes.empty()) return causes;
   for (diagnosis::Hypothesis& h : diagnosis::read_catalogue(context.input(config.further_causes))) {
     const auto same = [&](const diagnosis::Hypothesis& other) { return other.id == h.id && other.set == h.set; };
-    if (std::any_of(causes.begin(), causes.end(), same))
+    if (std::ranges::any_of(causes, same))
       throw InputError({h.file, 1, "id"}, fmt::format("'{}' stands at {} in the catalogue already", h.id, h.set),
                        "give it another set of places, or another id");
     causes.push_back(std::move(h));

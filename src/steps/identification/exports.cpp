@@ -43,8 +43,8 @@ Eigen::Vector3cd vector_at(const identification::ConditionResult& result, const 
   for (const std::size_t c : point.channels)
     if (!std::isnan(shape[static_cast<Index>(c)].real())) known.push_back(c);
   if (known.empty()) return Eigen::Vector3cd::Zero();
-  Eigen::MatrixXd cosines(static_cast<Index>(known.size()), 3);
-  Eigen::VectorXcd values(static_cast<Index>(known.size()));
+  Eigen::MatrixXd cosines(std::ssize(known), 3);
+  Eigen::VectorXcd values(std::ssize(known));
   for (Index i = 0; i < values.size(); ++i) {
     const std::size_t c = known[static_cast<std::size_t>(i)];
     cosines.row(i) = result.channels[c].direction.normalized().transpose();

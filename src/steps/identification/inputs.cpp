@@ -17,8 +17,7 @@ namespace {
 /// data/<study>/campaign where somebody has put records of their own, else what s0_campaign wrote.
 std::filesystem::path default_campaign(const runner::StepContext& context) {
   const std::filesystem::path own = std::filesystem::path("data") / context.study.lexically_normal().filename() / "campaign";
-  const bool is_there = !context.study.empty() && std::filesystem::exists(own / "campaign.toml");
-  if (is_there) return own;
+  if (!context.study.empty() && std::filesystem::exists(own / "campaign.toml")) return own;
   const std::filesystem::path simulated = context.results / "s0_campaign";
   if (!context.study.empty() && !std::filesystem::exists(simulated))
     throw InputError({own.string() + "/campaign.toml", 0, ""}, "does not exist, nor does " + simulated.string(),
@@ -67,13 +66,12 @@ std::vector<identification::Conditioned> read_kind(const records::Campaign& camp
                                                    const identification::IdentificationSettings& config,
                                                    runner::StepContext& context, LeftOut& left_out) {
   std::vector<identification::Conditioned> records;
-  for (const records::RecordGroup& group : records::record_groups(campaign, choice, true)) {
+  for (const records::RecordGroup& group : records::record_groups(campaign, choice, true))
     left_out.attempt("setup " + group.setup, [&] {
       records.push_back(identification::condition_records(campaign, group, config));
       for (const std::string& note : records.back().notes) context.say(note);
       for (const std::string& warning : records.back().warnings) context.warn(warning);
     });
-  }
   return records;
 }
 
@@ -83,7 +81,7 @@ std::string main_kind(const records::Campaign& campaign, const identification::I
   const auto has = [&](const std::string& kind) {
     return std::ranges::any_of(campaign.records, [&](const records::CampaignRecord& record) { return record.kind == kind; });
   };
-  const bool others = std::any_of(campaign.records.begin(), campaign.records.end(), [](const records::CampaignRecord& record) {
+  const bool others = std::ranges::any_of(campaign.records, [](const records::CampaignRecord& record) {
     return record.kind != "stay" && record.kind != "free_decay";
   });
   if (config.kind != "ambient" || others) return config.kind;

@@ -8,6 +8,7 @@
 #include <optional>
 
 #include "core/error.hpp"
+#include "core/lists.hpp"
 #include "io/atomic.hpp"
 #include "steps/identification/exports.hpp"
 
@@ -129,8 +130,8 @@ void write_channels(const records::Campaign& campaign, const identification::Con
   const auto table = io::CsvTable::read(campaign.folder / "channels.csv", {"channel"}, {}, true);
   io::CsvWriter csv(table.columns());
   for (std::size_t row = 0; row < table.rows(); ++row) {
-    const bool used = std::any_of(result.channels.begin(), result.channels.end(),
-                                  [&](const records::CampaignChannel& c) { return c.name == table.text(row, "channel"); });
+    const bool used = std::ranges::any_of(
+        result.channels, [&](const records::CampaignChannel& c) { return c.name == table.text(row, "channel"); });
     if (!used) continue;
     std::vector<io::Cell> cells;
     for (const std::string& column : table.columns()) cells.emplace_back(table.text(row, column));
@@ -204,8 +205,7 @@ void write_features(const records::Campaign& campaign, const std::vector<identif
 }
 
 std::string numbers_of(const identification::Numbering& numbering) {
-  std::vector<int> numbers;
-  for (const identification::Harmonic& h : numbering.harmonics) numbers.push_back(h.number);
+  std::vector<int> numbers = each_of(numbering.harmonics, &identification::Harmonic::number);
   return fmt::format("{}", fmt::join(numbers, " "));
 }
 
@@ -264,9 +264,8 @@ void write_stays(const std::vector<identification::StayResult>& stays, double le
   std::vector<std::string> columns = {"stay", "condition", "length_m"};
   using Names = std::pair<std::string, std::string>;  // of a quantity, its unit
   for (const auto& [name, unit] :
-       {Names{"c", "_Hz"}, Names{"tension_per_mass", "_m2_s2"}, Names{"lambda_squared", ""}, Names{"xi", ""}}) {
+       {Names{"c", "_Hz"}, Names{"tension_per_mass", "_m2_s2"}, Names{"lambda_squared", ""}, Names{"xi", ""}})
     for (const char* end : {"", "_low", "_high"}) columns.push_back(name + end + unit);
-  }
   columns.insert(columns.end(),
                  {"hinged_probability", "clamped_probability", "numbering_probability", "residual", "harmonics", "level"});
   io::CsvWriter tensions(columns);
@@ -321,24 +320,22 @@ void write_identification(const records::Campaign& campaign, const std::vector<i
   for (const identification::DecayResult& decay : decays)
     quality.insert(quality.end(), decay.conditioned.quality.begin(), decay.conditioned.quality.end());
   for (const identification::StayResult& stay : stays) quality.insert(quality.end(), stay.quality.begin(), stay.quality.end());
-  std::vector<std::string> conditions;
-  for (const identification::ConditionResult& result : results) conditions.push_back(result.condition);
+  std::vector<std::string> conditions = each_of(results, &identification::ConditionResult::condition);
   for (const identification::StayResult& stay : stays) conditions.push_back(stay.condition);
   write_features(campaign, results, conditions, stay_rows(stays), quality, folder / "features");
 }
 
 std::vector<std::string> notes_of(const std::vector<identification::DecayResult>& decays,
                                   const std::vector<identification::StayResult>& stays) {
-  std::vector<std::string> notes;
-  for (const identification::DecayResult& decay : decays) notes.push_back(decay.note);
+  std::vector<std::string> notes = each_of(decays, &identification::DecayResult::note);
   for (const identification::StayResult& stay : stays) notes.push_back(stay.note);
   std::erase(notes, "");
   return notes;
 }
 
 std::string why_no_mode(const identification::ConditionResult& result) {
-  const bool lines = std::any_of(result.setups.begin(), result.setups.end(),
-                                 [](const identification::SetupResult& setup) { return !setup.found.periodic.empty(); });
+  const bool lines = std::ranges::any_of(
+      result.setups, [](const identification::SetupResult& setup) { return !setup.found.periodic.empty(); });
   return fmt::format("no mode is stable over the model orders{}; see poles.csv, and raise block_rows or the record's length",
                      lines ? " beside the lines of periodic forces" : "");
 }

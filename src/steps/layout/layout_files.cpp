@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "core/error.hpp"
+#include "core/lists.hpp"
 #include "io/csv.hpp"
 
 namespace twindeck::steps {
@@ -45,14 +46,13 @@ std::vector<sensors::LayoutPoint> read_points(const fs::path& file) {
 
 std::vector<sensors::LayoutChannel> read_setups(const fs::path& file, const std::vector<sensors::LayoutPoint>& points) {
   const auto table = io::CsvTable::read(file, {"setup", "family", "channel", "point", "direction"});
-  std::vector<std::string> known;
-  for (const sensors::LayoutPoint& point : points) known.push_back(point.name);
+  std::vector<std::string> known = each_of(points, &sensors::LayoutPoint::name);
   std::vector<sensors::LayoutChannel> channels;
   std::set<std::pair<std::string, std::string>> seen;
   for (std::size_t row = 0; row < table.rows(); ++row) {
     const std::string point = table.text(row, "point"), direction = table.text(row, "direction"),
                       name = table.text(row, "channel");
-    const auto at = std::find(known.begin(), known.end(), point);
+    const auto at = std::ranges::find(known, point);
     if (at == known.end())
       table.fail(row, "point", "'" + point + "' is no point" + did_you_mean(point, known), "add it to the points");
     if (direction != "vertical" && direction != "radial")
@@ -62,8 +62,8 @@ std::vector<sensors::LayoutChannel> read_setups(const fs::path& file, const std:
     sensors::LayoutChannel channel = sensors::channel_at(points[static_cast<std::size_t>(at - known.begin())], direction, name);
     channel.setup = table.text(row, "setup");
     channel.family = table.text(row, "family");
-    const auto other = std::find_if(channels.begin(), channels.end(),
-                                    [&](const sensors::LayoutChannel& c) { return same_measurement(c, channel); });
+    const auto other =
+        std::ranges::find_if(channels, [&](const sensors::LayoutChannel& c) { return same_measurement(c, channel); });
     if (other != channels.end())
       table.fail(row, "point",
                  "'" + name + "' stands at the place and in the direction of '" + other->channel + "' of its setup",

@@ -8,6 +8,7 @@
 #include <string>
 
 #include "core/error.hpp"
+#include "core/lists.hpp"
 #include "model_io/export_matrices.hpp"
 #include "model_io/inp.hpp"
 #include "records/universal.hpp"
@@ -63,9 +64,7 @@ void export_inp(const dynamics::LoadedModel& loaded, int n_modes, const runner::
   };
   const auto calculix = write(model_io::InpFlavour::calculix, "model.inp");
   const auto abaqus = write(model_io::InpFlavour::abaqus, "model_abaqus.inp");
-  const auto is_in = [](const std::vector<std::string>& notes, const std::string& note) {
-    return std::find(notes.begin(), notes.end(), note) != notes.end();
-  };
+  const auto is_in = [](const std::vector<std::string>& notes, const std::string& note) { return contains(notes, note); };
   for (const std::string& note : calculix)
     context.say((is_in(abaqus, note) ? "model.inp, model_abaqus.inp: " : "model.inp: ") + note);
   for (const std::string& note : abaqus)

@@ -143,7 +143,7 @@ void write_mesh_convergence(const runner::Study& study, const std::string& varia
     const Eigen::Index count = std::min<Eigen::Index>(n_modes, own.modes.frequency_Hz.size());  // a small model may have fewer
     const matching::TrackedModes followed = follow(own, model, count);
     for (Eigen::Index i = 0; i < count; ++i)
-      csv.row({mesh, static_cast<long>(model.loaded.system.size()), static_cast<long>(i + 1), known(followed.frequency_Hz[i]),
+      csv.row({mesh, std::ssize(model.loaded.system), static_cast<long>(i + 1), known(followed.frequency_Hz[i]),
                known(100.0 * (followed.frequency_Hz[i] / own.modes.frequency_Hz[i] - 1.0)), known(followed.mac[i])});
   };
   write(study.model_mesh, own);

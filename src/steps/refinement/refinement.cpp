@@ -148,11 +148,10 @@ Status run_refinement(runner::StepContext& context, const RefinementConfig& conf
 
   // 3. What each as-built change does.
   ponte::ChangeStudy changes;
-  if (read.generated) {
+  if (read.generated)
     changes =
         ponte::study_changes(read.generated->model_file, read.generated->model_mesh, n, static_cast<int>(config.extra_modes),
                              [&](int done, int of) { context.progress("as-built changes", done, of); });
-  }
   write_changes(changes, context.out);
   for (const Status& status : {initial.modes.status, refined.modes.status, changes.status})
     if (!status.converged) return status;

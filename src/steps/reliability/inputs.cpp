@@ -137,25 +137,23 @@ Posterior read_posterior(runner::StepContext& context, const std::vector<fe::Par
   for (std::size_t row = 0; row < table.rows(); ++row) {
     if (table.text(row, "held") == "1") continue;
     const std::string name = table.text(row, "parameter");
-    const auto at = std::find_if(parameters.begin(), parameters.end(), [&](const fe::Parameter& p) { return p.name == name; });
+    const auto at = std::ranges::find(parameters, name, &fe::Parameter::name);
     if (at == parameters.end())
       table.fail(row, "parameter", "is '" + name + "', which the model does not have", "run step 6 again");
     out.inputs.push_back({kParameter + name, reliability::LawKind::normal, table.number(row, "final_value"),
                           table.number(row, "std_with_misfit"), at->lower, at->upper, table.text(row, "label"),
                           "s6_updating/posterior.csv"});
   }
-  const auto n = static_cast<Eigen::Index>(out.inputs.size());
+  const auto n = std::ssize(out.inputs);
   out.correlation = Eigen::MatrixXd::Identity(n, n);
-  const auto position = [&](const std::string& name) {
-    for (Eigen::Index i = 0; i < n; ++i)
-      if (out.inputs[static_cast<std::size_t>(i)].name == kParameter + name) return i;
-    return Eigen::Index{-1};
+  const auto position = [&](const std::string& name) -> Eigen::Index {  // n for a parameter that is held
+    return std::ranges::find(out.inputs, kParameter + name, &reliability::RandomInput::name) - out.inputs.begin();
   };
   const io::CsvTable pairs =
       io::CsvTable::read(context.input(folder / "correlations.csv"), {"parameter", "other_parameter", "correlation"}, {}, true);
   for (std::size_t row = 0; row < pairs.rows(); ++row) {
     const Eigen::Index i = position(pairs.text(row, "parameter")), j = position(pairs.text(row, "other_parameter"));
-    if (i >= 0 && j >= 0) out.correlation(i, j) = out.correlation(j, i) = pairs.number(row, "correlation");
+    if (i < n && j < n) out.correlation(i, j) = out.correlation(j, i) = pairs.number(row, "correlation");
   }
   return out;
 }
@@ -221,7 +219,7 @@ std::optional<reliability::WindLaw> read_wind_law(const StatedWindLaw& stated, d
 /// Refuses lists that say nothing or do not rise, and walls and faults that the model cannot have, before anything is computed.
 void check_lists(const ReliabilityConfig& config, const std::vector<reliability::Wall>& walls, const fe::Model* model) {
   const auto rises = [](const std::vector<double>& list) {
-    return !list.empty() && std::adjacent_find(list.begin(), list.end(), std::greater_equal<>()) == list.end();
+    return !list.empty() && std::ranges::adjacent_find(list, std::greater_equal<>()) == list.end();
   };
   if (!rises(config.speed_m_s))
     throw InputError({"", 0, "speeds"}, "is empty or does not rise", "write speeds = [\"5 m/s\", \"10 m/s\"]");
@@ -271,18 +269,18 @@ Inputs random_inputs(const ReliabilityConfig& config, double structural_damping,
     inputs.push_back(scattered(reliability::kCorrosion, 1.0, config.corrosion_variation, "assumed", "corrosion_variation"));
   std::vector<int> parameters;
   for (const StatedInput& own : config.random) {
-    const auto at = std::find_if(inputs.begin(), inputs.end(), [&](const auto& input) { return input.name == own.name; });
+    const auto at = std::ranges::find(inputs, own.name, &reliability::RandomInput::name);
     if (at != inputs.end())
       *at = stated(own);
     else
-      inputs.insert(inputs.begin() + static_cast<std::ptrdiff_t>(posterior.inputs.size()), stated(own));
+      inputs.insert(inputs.begin() + std::ssize(posterior.inputs), stated(own));
   }
   std::vector<std::string> known = {reliability::kDamping, reliability::kSlope, reliability::kDampers, reliability::kTurbulence,
                                     reliability::kCorrosion};
-  const auto own_inputs = static_cast<std::ptrdiff_t>(known.size());
+  const auto own_inputs = std::ssize(known);
   for (const fe::Parameter& parameter : of_model) known.push_back(kParameter + parameter.name);
   for (reliability::RandomInput& input : inputs) {
-    const auto at = std::find(known.begin(), known.end(), input.name);
+    const auto at = std::ranges::find(known, input.name);
     if (at == known.end())
       throw InputError({"", 0, "random"},
                        "names '" + input.name + "', which is no random input" + did_you_mean(input.name, known),
@@ -295,7 +293,7 @@ Inputs random_inputs(const ReliabilityConfig& config, double structural_damping,
     input.low = of_model[static_cast<std::size_t>(parameters.back())].lower;
     input.high = of_model[static_cast<std::size_t>(parameters.back())].upper;
   }
-  const auto n = static_cast<Eigen::Index>(inputs.size());
+  const auto n = std::ssize(inputs);
   Eigen::MatrixXd correlation = Eigen::MatrixXd::Identity(n, n);
   if (posterior.correlation.size() > 0)
     correlation.topLeftCorner(posterior.correlation.rows(), posterior.correlation.cols()) = posterior.correlation;
@@ -315,7 +313,7 @@ std::vector<MonitoredName> read_monitored(runner::StepContext& context, const st
     const io::CsvTable table =
         io::CsvTable::read(context.input(file), {"stage", "experimental_mode", "numerical_mode"}, {}, true);
     for (std::size_t row = 0; row < table.rows(); ++row) {
-      const auto at = std::find(measured->labels.begin(), measured->labels.end(), table.text(row, "experimental_mode"));
+      const auto at = std::ranges::find(measured->labels, table.text(row, "experimental_mode"));
       const std::string& name = table.text(row, "numerical_mode");
       long mode = 0;  // "3N"
       std::from_chars(name.data(), name.data() + name.size(), mode);

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <map>
 
+#include "core/lists.hpp"
 #include "core/parallel.hpp"
 #include "reliability/fatigue.hpp"
 #include "reliability/form.hpp"
@@ -133,16 +134,14 @@ std::vector<std::size_t> largest_rows(const Structure& s, const std::vector<reli
 void find_critical(const ReliabilityConfig& config, const ReliabilityInputs& read, const Structure& s, Found& found) {
   const auto add = [&](const reliability::CriticalSpeed& speed) {
     CriticalRow row{s.of, speed};
-    if (!found.critical.empty() && s.of.years > 0.0 && speed.speed_m_s) {
-      for (const CriticalRow& first : found.critical) {
-        if (first.of.years > 0.0 || !first.of.same_but_years(s.of) || first.speed.model != speed.model ||
-            !first.speed.speed_m_s)
-          continue;
-        const std::vector<reliability::UncertainBridge::Change> changes = s.uncertain.changes();
-        for (std::size_t i = 0; i < changes.size(); ++i)
-          row.speed.speed_m_s->slope[static_cast<Index>(i)] +=
-              changes[i].corrosion * std::log(speed.speed_m_s->value / first.speed.speed_m_s->value);
-      }
+    for (const CriticalRow& first : found.critical) {
+      if (s.of.years == 0.0 || !speed.speed_m_s || first.of.years > 0.0 || !first.of.same_but_years(s.of) ||
+          first.speed.model != speed.model || !first.speed.speed_m_s)
+        continue;
+      const std::vector<reliability::UncertainBridge::Change> changes = s.uncertain.changes();
+      for (std::size_t i = 0; i < changes.size(); ++i)
+        row.speed.speed_m_s->slope[static_cast<Index>(i)] +=
+            changes[i].corrosion * std::log(speed.speed_m_s->value / first.speed.speed_m_s->value);
     }
     found.critical.push_back(row);
     for (const double v : config.speed_m_s) {
@@ -235,8 +234,7 @@ void add_limit_states(const ReliabilityConfig& config, const Structure& s, doubl
     found.fragility.push_back(
         {name, config.response_model, s.of, speed, place, limit, std::sqrt(moments.mean[moments.varied[k]].variance), unit,
          reliability::excursion(moments, k, limit, config.duration_s, static_cast<int>(config.samples), seed)});
-    if (std::find(config.rare.begin(), config.rare.end(), name) != config.rare.end())
-      add_rare(config, found.fragility.back(), moments, k, seed, found);
+    if (contains(config.rare, name)) add_rare(config, found.fragility.back(), moments, k, seed, found);
   };
   const auto node = [&](std::size_t k) {
     return node_name(s.bridge, (moments.varied[k] - 3 * s.bridge.sensors.points.size()) / 2);
@@ -272,7 +270,7 @@ void add_fatigue(const ReliabilityConfig& config, const Structure& s, double spe
 /// Responses to turbulence at each mean speed in which the bridge is stable.
 void find_responses(const ReliabilityConfig& config, const ReliabilityInputs& read, const Structure& s,
                     runner::StepContext& context, Found& found) {
-  const auto critical = std::find_if(found.critical.begin(), found.critical.end(), [&](const CriticalRow& row) {
+  const auto critical = std::ranges::find_if(found.critical, [&](const CriticalRow& row) {
     return row.of.years == s.of.years && row.of.same_but_years(s.of) && row.speed.model == config.response_model;
   });
   const reliability::WindResponse response{s.bridge,
@@ -325,7 +323,7 @@ void find_years(const ReliabilityInputs& read, const fe::Model& start, const Str
   for (Index mode = 0; mode < std::min(kModesOverYears, at.structure.size()); ++mode) {
     const double omega = at.structure.omega_rad_s[mode], frequency = omega / (2.0 * EIGEN_PI);
     const std::string place = fmt::format("mode {}", mode + 1);
-    const auto first = std::find_if(found.years.begin(), found.years.end(), [&](const YearRow& row) {
+    const auto first = std::ranges::find_if(found.years, [&](const YearRow& row) {
       return row.quantity == "frequency" && row.of.years == 0.0 && row.place == place;
     });
     double square = 0.0;
@@ -341,7 +339,7 @@ void find_years(const ReliabilityInputs& read, const fe::Model& start, const Str
     found.years.push_back({s.of, "stay_force", s.stays.names[i], "N", s.stays.pull_N[static_cast<Index>(i)], std::nullopt});
   for (const reliability::Wall& wall : read.walls)
     for (const fe::Section& section : start.sections)
-      if (std::find(wall.sections.begin(), wall.sections.end(), section.name) != wall.sections.end())
+      if (contains(wall.sections, section.name))
         found.years.push_back({s.of, "remaining_area", section.name, "-", wall.remaining(section, s.of.years), std::nullopt});
 }
 
@@ -432,12 +430,11 @@ Status run_reliability(const ReliabilityConfig& config, const ReliabilityInputs&
   }
 
   if (!found.rare_status.converged) return found.rare_status;
-  for (const std::string& name : config.rare) {
-    if (std::none_of(found.rare.begin(), found.rare.end(), [&](const RareRow& row) { return row.limit_state == name; }))
+  for (const std::string& name : config.rare)
+    if (std::ranges::none_of(found.rare, [&](const RareRow& row) { return row.limit_state == name; }))
       throw InputError({"", 0, "rare"},
                        "names '" + name + "', which is exceeded always or never, or is no limit state, at all speeds",
                        "name a limit state of crossings.csv, and give speeds in which its probability lies between");
-  }
 
   // 2. Tables, and the outcome in words.
   write_random(read.random, context.out);

@@ -9,13 +9,14 @@
 #include <set>
 
 #include "core/error.hpp"
+#include "core/lists.hpp"
 #include "io/csv.hpp"
 
 namespace twindeck::steps {
 namespace {
 
 bool is_published(const SensitivityConfig& config, const std::string& name) {
-  return std::ranges::find(config.published_selection, name) != config.published_selection.end();
+  return contains(config.published_selection, name);
 }
 
 bool is_resolved(const sensitivity::Identifiability& identified, const SensitivityConfig& config, Eigen::Index p) {
@@ -124,9 +125,7 @@ std::vector<double> paired_modes(const std::filesystem::path& file) {
 }
 
 std::vector<std::string> parameter_names(const std::vector<fe::Parameter>& parameters) {
-  std::vector<std::string> names;
-  for (const fe::Parameter& parameter : parameters) names.push_back(parameter.name);
-  return names;
+  return each_of(parameters, &fe::Parameter::name);
 }
 
 void check_sensitivity_config(const SensitivityConfig& config, const std::vector<fe::Parameter>& parameters,
@@ -140,7 +139,7 @@ void check_sensitivity_config(const SensitivityConfig& config, const std::vector
                        "raise n_modes or leave the mode out");
   const std::vector<std::string> names = parameter_names(parameters);
   for (const std::string& name : config.published_selection)
-    if (std::find(names.begin(), names.end(), name) == names.end())
+    if (!contains(names, name))
       throw InputError({"", 0, "published_selection"},
                        fmt::format("'{}' is no parameter of {}{}", name, source, did_you_mean(name, names)),
                        "the model has " + joined(names));
@@ -173,9 +172,8 @@ std::vector<std::string> sensitivity_report(const std::vector<fe::Parameter>& pa
                   found.exact.rows(), found.exact.cols(), worst_difference(found.richardson, found.exact),
                   worst_difference(found.forward, found.exact)));
   lines.push_back("selected: " + joined(kept));
-  if (!config.published_selection.empty()) {
+  if (!config.published_selection.empty())
     lines.push_back("published but not selected: " + joined(only_there) + "; selected but not published: " + joined(only_here));
-  }
   lines.push_back(fmt::format("{} of {} directions identifiable; parameters seen: {}", identified.retained, parameters.size(),
                               joined(resolved)));
   return lines;

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "core/error.hpp"
+#include "core/lists.hpp"
 #include "dynamics/eigenmodes.hpp"
 #include "dynamics/model_check.hpp"
 #include "io/csv.hpp"
@@ -62,7 +63,7 @@ void write_setups(const std::vector<sensors::ScoredSetup>& setups, const std::ve
                   const fs::path& folder) {
   std::vector<std::size_t> order(setups.size());
   for (std::size_t i = 0; i < order.size(); ++i) order[i] = i;
-  std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return setups[a].score < setups[b].score; });
+  std::ranges::sort(order, [&](std::size_t a, std::size_t b) { return setups[a].score < setups[b].score; });
   std::vector<long> rank(setups.size());
   for (std::size_t i = 0; i < order.size(); ++i) rank[order[i]] = static_cast<long>(i) + 1;
   io::CsvWriter csv({"setup", "family", "channels", "R_k", "rank", "log_determinant", "draws", "best_drawn_R_k",
@@ -107,8 +108,7 @@ void write_blind_test(const SensorsConfig& config, const sensors::BlindTestResul
   io::CsvWriter psd({"setup", "channel", "frequency_Hz", "psd_m2_s3"});
   for (std::size_t i = 0; i < result.tests.size(); ++i) {
     const sensors::BlindTest& test = result.tests[i];
-    const sensors::ScoredSetup& setup =
-        *std::find_if(setups.begin(), setups.end(), [&](const sensors::ScoredSetup& s) { return s.name == test.setup; });
+    const sensors::ScoredSetup& setup = *std::ranges::find(setups, test.setup, &sensors::ScoredSetup::name);
     std::vector<bool> taken(test.modes.size(), false);
     for (Index m = 0; m < frequency_Hz.size(); ++m) {
       const VectorXd shape = phi(setup.rows, m);
@@ -210,8 +210,7 @@ runner::Computation read_sensors(runner::StepContext& context, const SensorsConf
   if (model == nullptr)
     throw InputError({read.model.source, 0, ""}, "is a matrix model, whose points have no place",
                      "give a model of finite elements");
-  std::vector<Eigen::Vector3d> places;
-  for (const sensors::LayoutPoint& point : read.points) places.push_back(point.x_m);
+  std::vector<Eigen::Vector3d> places = each_of(read.points, &sensors::LayoutPoint::x_m);
   read.nodes = sensors::nodes_at(*model, places, config.tolerance_m);
   return [&context, &config, read = std::move(read)] { return run_sensors(context, config, read); };
 }

@@ -7,6 +7,7 @@
 #include <string>
 
 #include "core/error.hpp"
+#include "core/lists.hpp"
 #include "core/units.hpp"
 #include "io/csv.hpp"
 #include "matching/comparison.hpp"
@@ -36,17 +37,16 @@ bool has_range(const fe::Parameter& parameter) { return parameter.lower < parame
 /// @throws InputError  for a name that is no parameter, is listed twice or has no range
 std::vector<int> positions_of(const std::vector<std::string>& names, const dynamics::ReadModel& model) {
   const std::vector<fe::Parameter>& parameters = model.parameters();
-  std::vector<std::string> known;
-  for (const fe::Parameter& parameter : parameters) known.push_back(parameter.name);
+  std::vector<std::string> known = each_of(parameters, &fe::Parameter::name);
   std::vector<int> active;
   for (const std::string& name : names) {
-    const auto at = std::find(known.begin(), known.end(), name);
+    const auto at = std::ranges::find(known, name);
     if (at == known.end())
       throw InputError({"", 0, "parameters"},
                        fmt::format("'{}' is no parameter of {}{}", name, model.source, did_you_mean(name, known)),
                        "list parameters of the model");
     const auto p = static_cast<int>(at - known.begin());
-    if (std::find(active.begin(), active.end(), p) != active.end())
+    if (contains(active, p))
       throw InputError({"", 0, "parameters"}, fmt::format("names '{}' twice", name), "list each parameter once");
     if (!has_range(parameters[static_cast<std::size_t>(p)]))
       throw InputError({model.source, 0, name}, "is fixed (its bounds coincide), but is listed for updating",
@@ -80,14 +80,14 @@ std::vector<Eigen::VectorXd> published_values(const UpdatingConfig& config, cons
   const io::CsvTable table =
       io::CsvTable::read(context.input(config.published_values), {"parameter", "unit", "final_value"}, {}, true);
   std::vector<std::string> updated;
-  Eigen::VectorXd values(static_cast<Eigen::Index>(active.size()));
+  Eigen::VectorXd values(std::ssize(active));
   for (std::size_t j = 0; j < active.size(); ++j) {
     updated.push_back(parameters[static_cast<std::size_t>(active[j])].name);
     values(static_cast<Eigen::Index>(j)) = parameters[static_cast<std::size_t>(active[j])].initial;
   }
   for (std::size_t row = 0; row < table.rows(); ++row) {
     const std::string name = table.text(row, "parameter");
-    const auto at = std::find(updated.begin(), updated.end(), name);
+    const auto at = std::ranges::find(updated, name);
     if (at == updated.end())
       table.fail(row, "parameter", "'" + name + "' is not updated here" + did_you_mean(name, updated), "take the row out");
     const auto j = at - updated.begin();
@@ -101,7 +101,7 @@ std::vector<Eigen::VectorXd> published_values(const UpdatingConfig& config, cons
 }
 
 std::optional<io::FieldTable::Broken> broken_weights(const UpdatingConfig& config) {
-  if (std::find(config.residuals.begin(), config.residuals.end(), "frequency") == config.residuals.end())
+  if (!contains(config.residuals, "frequency"))
     return io::FieldTable::Broken{"residuals", "lacks \"frequency\"",
                                   "write residuals = [\"frequency\"] or [\"frequency\", \"shape\"]"};
   if (config.weighs_shapes() && config.weights == "relative")

@@ -9,6 +9,7 @@
 #include <iterator>
 #include <optional>
 
+#include "core/lists.hpp"
 #include "io/csv.hpp"
 #include "matching/hollow_fit.hpp"
 #include "steps/measured/comparison_tables.hpp"
@@ -55,7 +56,7 @@ double mean_left_out_pct(const updating::UpdatingResult& result, const std::vect
 
 // Position of a start's optimum among the distinct ones, from 1; 0 where it did not converge.
 int optimum_number(const updating::UpdatingResult& result, const updating::StartResult& start) {
-  const auto at = std::find(result.optima.begin(), result.optima.end(), start.optimum);
+  const auto at = std::ranges::find(result.optima, start.optimum);
   return at == result.optima.end() ? 0 : static_cast<int>(at - result.optima.begin()) + 1;
 }
 
@@ -145,9 +146,8 @@ void write_leave_one_out(const std::vector<matching::ComparisonRow>& comparison,
 void write_updating_summary(const std::vector<matching::ComparisonRow>& comparison, const std::vector<std::string>& common,
                             const updating::UpdatingResult& result, const std::filesystem::path& file) {
   std::vector<matching::ComparisonRow> alike;
-  std::copy_if(comparison.begin(), comparison.end(), std::back_inserter(alike), [&](const matching::ComparisonRow& row) {
-    return std::find(common.begin(), common.end(), row.experimental) != common.end();
-  });
+  std::ranges::copy_if(comparison, std::back_inserter(alike),
+                       [&](const matching::ComparisonRow& row) { return contains(common, row.experimental); });
   io::CsvWriter csv({"quantity", "value", "unit"});
   csv.row({"mean_abs_error_before_pct", matching::mean_abs_error_pct(comparison, "before"), "%"});
   csv.row({"mean_abs_error_after_pct", matching::mean_abs_error_pct(comparison, "after"), "%"});
@@ -275,8 +275,7 @@ void write_selected(const std::vector<fe::Parameter>& parameters, const std::vec
     return;
   }
   const auto own = write_another("selected", parameters, selected, comparison, result, context.out);
-  std::vector<std::string> names;
-  for (std::size_t j = 0; j < selected.size(); ++j) names.push_back(parameter_at(parameters, selected, j).name);
+  const auto names = each_of(selected, [&](int p) { return parameters[static_cast<std::size_t>(p)].name; });
   const std::string left_out =
       result.left_out.empty() ? "" : fmt::format(", {:.2f} % where left out", mean_left_out_pct(result, own));
   context.say(fmt::format("with the parameters that s5_sensitivity selected ({}): mean |error| {:.2f} %{}",

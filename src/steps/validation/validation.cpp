@@ -167,12 +167,12 @@ void write_hybrid(const buffeting::BridgeInWind& bridge, const std::filesystem::
                    aero::static_factor(rule, strip.yaw_rad).force, aero::block_factor(rule, strip.yaw_rad)(1, 1)});
       }
       if (yaw.size() < 2) continue;
-      std::sort(yaw.begin(), yaw.end());
+      std::ranges::sort(yaw);
       // The outermost strips end half a strip beyond their nodes: at the end stays.
       const double lowest = yaw[0] - 0.5 * (yaw[1] - yaw[0]), highest = yaw.back() + 0.5 * (yaw.back() - yaw[yaw.size() - 2]);
       const auto put = [&](const std::string& name, double from, double to) {
         const aero::YawRule& rule = deployment.at(zone.deck, 0.5 * (from + to) / degrees);
-        const auto inside = std::count_if(yaw.begin(), yaw.end(), [&](double y) { return y >= from && y <= to; });
+        const auto inside = std::ranges::count_if(yaw, [&](double y) { return y >= from && y <= to; });
         zones.row({zone.deck, from, to, name, rule.name, name_of(rule.statics), rule.lookup_power, rule.inverse_power(1, 1),
                    static_cast<long>(inside)});
       };
@@ -202,7 +202,7 @@ std::set<std::string> vertical_channels(runner::StepContext& context, const reco
   const std::vector<std::string> points = buffeting::accelerometers(model);
   std::set<std::string> vertical;
   for (const records::CampaignChannel& channel : campaign.channels) {
-    if (std::find(points.begin(), points.end(), channel.name) == points.end()) continue;
+    if (std::ranges::find(points, channel.name) == points.end()) continue;
     const Eigen::Vector3d& x_m = model.nodes[static_cast<std::size_t>(model.monitoring_points.at(channel.name))].x_m;
     const std::string other = records::other_than_vertical_acceleration(channel, x_m, tolerance_m);
     if (other.empty())
@@ -331,11 +331,10 @@ Status run_validation(const ValidationConfig& config, const ValidationInputs& re
     buffeting::SimulatedEvent simulated = buffeting::simulate_event(bridge, set, config, event, context.seed, context);
     for (std::size_t i = 0; i < simulated.runs.size(); ++i) {
       const Status& status = simulated.runs[i].status;
-      if (!status.converged) {
+      if (!status.converged)
         unstable.push_back(status.message);
-      } else if (!stable) {
+      else if (!stable)
         stable = {event, config.runs[i]};
-      }
       found.results.push_back(std::move(simulated.runs[i]));
     }
     found.field_checks.insert(found.field_checks.end(), simulated.checks.begin(), simulated.checks.end());

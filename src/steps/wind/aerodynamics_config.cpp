@@ -21,7 +21,7 @@ std::vector<std::string> all_models() {
 std::optional<io::FieldTable::Broken> zone_without_a_deck(const AerodynamicsConfig& config) {
   const std::vector<std::string> known = config.deck_names();
   for (const aero::HybridZone& zone : config.hybrid) {
-    if (std::find(known.begin(), known.end(), zone.deck) != known.end()) continue;
+    if (std::ranges::find(known, zone.deck) != known.end()) continue;
     return io::FieldTable::Broken{"hybrid.deck",
                                   fmt::format("'{}' is no [[deck]]{}", zone.deck, did_you_mean(zone.deck, known)),
                                   known.empty() ? "add its [[deck]]" : fmt::format("choose one of {}", fmt::join(known, ", "))};

@@ -31,7 +31,7 @@ std::map<std::string, std::string> exceptions_of(const aero::DeckWind& deck) {
     const std::size_t colon = entry.find(": ");
     const std::string law = entry.substr(0, colon), reason = colon == std::string::npos ? "" : entry.substr(colon + 2);
     const std::vector<std::string>& known = aero::law_names();
-    if (std::find(known.begin(), known.end(), law) == known.end())
+    if (std::ranges::find(known, law) == known.end())
       throw InputError(place, "names the law '" + law + "'" + did_you_mean(law, known), "laws are listed in aero/laws.hpp");
     std::istringstream words(reason);
     if (std::distance(std::istream_iterator<std::string>(words), {}) < least_words)
@@ -45,11 +45,10 @@ void check_laws(const aero::DeckWind& deck, const aero::DeckAerodynamics& data) 
   std::map<std::string, std::string> exceptions = exceptions_of(deck);
   const aero::QuasiSteady::Arms arms{deck.arm_drag, deck.arm_lift, deck.arm_moment};
   for (const aero::BrokenLaw& broken :
-       data.flutter ? aero::broken_laws(data.polar, *data.flutter, arms) : aero::broken_laws(data.polar)) {
+       data.flutter ? aero::broken_laws(data.polar, *data.flutter, arms) : aero::broken_laws(data.polar))
     if (exceptions.erase(broken.law) == 0)
       throw InputError({"", 0, "deck " + deck.name}, "breaks the law '" + broken.law + "': " + broken.told,
                        "mend the file, or say why in the deck's exceptions: \"" + broken.law + ": reason\"");
-  }
   if (!exceptions.empty())
     throw InputError({"", 0, "deck " + deck.name + ": exceptions"},
                      "'" + exceptions.begin()->first + "' is excepted, but holds", "take the entry out");
@@ -64,7 +63,7 @@ std::vector<aero::DeckAerodynamics> read_deck_aerodynamics(const aero::WindSetti
   std::vector<aero::DeckAerodynamics> data;
   for (const aero::DeckWind& deck : config.decks) {
     data.push_back({aero::read_polar(context.input(deck.polar)), nullptr});
-    const bool asked = std::find(config.sets.begin(), config.sets.end(), "standin") != config.sets.end();
+    const bool asked = std::ranges::find(config.sets, "standin") != config.sets.end();
     if (deck.flutter.empty() && asked)
       throw InputError({"", 0, "deck " + deck.name}, "has no file of flutter derivatives, which the set standin is made of",
                        "give its flutter, or write sets = [\"quasi_steady\"] in step 7 and set = \"quasi_steady\" in step 8");
@@ -123,7 +122,7 @@ wind::TurbulenceSet read_turbulence(const ValidationConfig& config, runner::Step
   if (config.coherence == "davenport")
     for (wind::PerComponent& decay : set.decay) decay.fill(config.davenport_decay);
   const auto stated = [&set](wind::Component component, const std::vector<double>& decay) {
-    if (!decay.empty()) std::copy(decay.begin(), decay.end(), set.decay[static_cast<std::size_t>(component)].begin());
+    if (!decay.empty()) std::ranges::copy(decay, set.decay[static_cast<std::size_t>(component)].begin());
   };
   stated(wind::Component::along, config.decay_v);
   stated(wind::Component::across, config.decay_u);
