@@ -24,8 +24,7 @@ using Eigen::VectorXd;
 constexpr double kWarmUp_s = 100.0;  // ten times as long as the longest-lived mode takes to forget its start by a factor 1/e
 
 std::vector<int> nodes_of(const BridgeState& state, const std::vector<sensors::LayoutPoint>& points) {
-  std::vector<Eigen::Vector3d> places = each_of(points, &sensors::LayoutPoint::x_m);
-  return sensors::nodes_at(state.chains.model, places, 0.05);
+  return sensors::nodes_at(state.chains.model, each_of(points, &sensors::LayoutPoint::x_m), 0.05);
 }
 
 /// A node that is loaded in its three directions, and how much.
@@ -134,6 +133,48 @@ MatrixXd gusts(const VirtualWind& virtual_wind, const CampaignSettings& settings
   return out;
 }
 
+transient::TrapezoidalStepper stepper_of(const ConditionModel& model, const CampaignSettings& settings) {
+  transient::TrapezoidalStepper stepper(model.basis.omega_rad_s, model.damping,
+                                        1.0 / (settings.rate_Hz * static_cast<double>(settings.substeps)));
+  if (!model.dampers.empty()) stepper.set_dampers(model.at_dampers, model.dampers);
+  return stepper;
+}
+
+/// Steps through the warm-up, of which nothing is kept, and the record. Loads are joined by straight lines.
+/// @param load_at  load of a sample, from -warm_up on
+/// @param self     self-excited forces, null for none
+/// @param seen     (n_channels × r) accelerations of the channels from those of the coordinates
+template <class LoadAt>
+Motion motion_under(const LoadAt& load_at, const aero::AeroelasticSystem::Block* self, Index warm_up, Index n_samples,
+                    const MatrixXd& seen, const ConditionModel& model, const CampaignSettings& settings,
+                    transient::TrapezoidalStepper& stepper) {
+  const Index n_late = seen.rows() / 2, n_first = seen.rows() - n_late;
+  Motion out{MatrixXd(n_samples, seen.rows()),
+             MatrixXd(model.dampers.empty() ? 0 : n_samples * settings.substeps, std::ssize(model.dampers)),
+             VectorXd::Zero(seen.rows())};
+  VectorXd before, after = VectorXd::Zero(model.basis.omega_rad_s.size());
+  for (Index sample = -warm_up; sample < n_samples; ++sample) {
+    before = after;
+    after = load_at(sample);
+    for (long k = 0; k < settings.substeps; ++k) {
+      const double part = static_cast<double>(k + 1) / static_cast<double>(settings.substeps);
+      VectorXd load = (1.0 - part) * before + part * after;
+      if (self != nullptr) load = load + self->damping * stepper.velocity() + self->stiffness * stepper.displacement();
+      stepper.step(load);
+      if (sample < 0) continue;
+      const auto take = [&](auto&& there, const auto& channels) {
+        there.noalias() = (channels * stepper.acceleration()).transpose();
+      };
+      if (k == 0) take(out.acceleration_m_s2.row(sample).head(n_first), seen.topRows(n_first));
+      if (k == settings.second_logger_lag) take(out.acceleration_m_s2.row(sample).tail(n_late), seen.bottomRows(n_late));
+      if (out.damper_force_N.size() > 0) out.damper_force_N.row(sample * settings.substeps + k) = stepper.damper_force();
+      if (k + 1 == settings.substeps) out.rms_displacement_m += (seen * stepper.displacement()).cwiseAbs2();
+    }
+  }
+  out.rms_displacement_m = (out.rms_displacement_m / static_cast<double>(n_samples)).cwiseSqrt();
+  return out;
+}
+
 }  // namespace
 
 ConditionModel condition_model(const CampaignSettings& settings, const ConditionSettings& condition, const BridgeState& state,
@@ -171,43 +212,13 @@ ConditionModel condition_model(const CampaignSettings& settings, const Condition
   return out;
 }
 
-MotionRecorder::MotionRecorder(const ConditionModel& model, const CampaignSettings& settings, MatrixXd seen, Index n_samples)
-    : seen_(std::move(seen)),
-      first_late_((seen_.rows() + 1) / 2),
-      substeps_(settings.substeps),
-      late_substep_(settings.second_logger_lag),
-      square_(VectorXd::Zero(seen_.rows())) {
-  motion_.acceleration_m_s2.resize(n_samples, seen_.rows());
-  motion_.damper_force_N.resize(model.dampers.empty() ? 0 : n_samples * substeps_, std::ssize(model.dampers));
-}
-
-void MotionRecorder::take(Index sample, long substep, const transient::TrapezoidalStepper& stepper) {
-  if (sample < 0) return;
-  const Index n_late = seen_.rows() - first_late_;
-  if (substep == 0)
-    motion_.acceleration_m_s2.row(sample).head(first_late_).noalias() =
-        (seen_.topRows(first_late_) * stepper.acceleration()).transpose();
-  if (substep == late_substep_)
-    motion_.acceleration_m_s2.row(sample).tail(n_late).noalias() =
-        (seen_.bottomRows(n_late) * stepper.acceleration()).transpose();
-  if (motion_.damper_force_N.size() > 0) motion_.damper_force_N.row(sample * substeps_ + substep) = stepper.damper_force();
-  if (substep + 1 == substeps_) square_ += (seen_ * stepper.displacement()).cwiseAbs2();
-}
-
-Motion MotionRecorder::motion() {
-  motion_.rms_displacement_m = (square_ / static_cast<double>(motion_.acceleration_m_s2.rows())).cwiseSqrt();
-  return std::move(motion_);
-}
-
 Motion simulate(const ConditionModel& model, const CampaignSettings& settings, const RecordSettings& record,
                 const std::vector<sensors::LayoutChannel>& channels, const std::vector<sensors::LayoutPoint>& points,
                 std::uint64_t seed, std::uint64_t stream) {
   const Index r = model.basis.omega_rad_s.size(), n = model.n_modes;
   const MatrixXd seen = at_channels(*model.state, model.basis.vectors, channels);
   const auto n_samples = static_cast<Index>(std::lround(record.duration_s * settings.rate_Hz));
-  transient::TrapezoidalStepper stepper(model.basis.omega_rad_s, model.damping,
-                                        1.0 / (settings.rate_Hz * static_cast<double>(settings.substeps)));
-  if (!model.dampers.empty()) stepper.set_dampers(model.at_dampers, model.dampers);
+  transient::TrapezoidalStepper stepper = stepper_of(model, settings);
 
   Index warm_up = static_cast<Index>(std::lround(kWarmUp_s * settings.rate_Hz));
   if (record.kind == "free_decay") {
@@ -222,18 +233,12 @@ Motion simulate(const ConditionModel& model, const CampaignSettings& settings, c
   // A force of density S [N²/Hz, one-sided] sampled at f has the variance S f / 2.
   const double intensity = std::sqrt(0.5 * settings.rate_Hz);
   AmbientLoads loads(model.loads, intensity, seed, stream);
-  VectorXd before = VectorXd::Zero(r), after = VectorXd::Zero(r);
-  MotionRecorder recorder(model, settings, seen, n_samples);
-  for (Index sample = -warm_up; sample < n_samples; ++sample) {
-    before = after;
-    after.head(n) = loads.at(sample + warm_up);
-    for (long k = 0; k < settings.substeps; ++k) {
-      const double part = static_cast<double>(k + 1) / static_cast<double>(settings.substeps);
-      stepper.step((1.0 - part) * before + part * after);
-      recorder.take(sample, k, stepper);
-    }
-  }
-  return recorder.motion();
+  VectorXd load = VectorXd::Zero(r);
+  const auto load_at = [&](Index sample) -> const VectorXd& {
+    load.head(n) = loads.at(sample + warm_up);
+    return load;
+  };
+  return motion_under(load_at, nullptr, warm_up, n_samples, seen, model, settings, stepper);
 }
 
 MatrixXd logged_record(const Motion& motion, const CampaignSettings& settings, std::uint64_t seed, std::uint64_t record) {
@@ -307,26 +312,15 @@ Motion simulate_wind(const ConditionModel& model, const CampaignSettings& settin
   const MatrixXd force = load * gusts(virtual_wind, settings, record, strips, wind, seed + 7919 * (stream + 1)).transpose();
 
   // 3. The motion.
-  const MatrixXd seen = at_channels(*model.state, model.basis.vectors, channels);
   const Index n_samples = force.cols();
-  transient::TrapezoidalStepper stepper(model.basis.omega_rad_s, model.damping,
-                                        1.0 / (settings.rate_Hz * static_cast<double>(settings.substeps)));
-  if (!model.dampers.empty()) stepper.set_dampers(model.at_dampers, model.dampers);
-  MotionRecorder recorder(model, settings, seen, n_samples);
-  VectorXd before = VectorXd::Zero(force.rows()), after = before;
   const auto warm_up = std::min<Index>(n_samples, static_cast<Index>(std::lround(kRampUp_s * settings.rate_Hz)));
-  for (Index sample = -warm_up; sample < n_samples; ++sample) {
-    before = after;
+  const auto load_at = [&](Index sample) -> VectorXd {
     const double rise = std::min(1.0, 2.0 * static_cast<double>(sample + warm_up) / static_cast<double>(warm_up));
-    after = rise * force.col((sample + n_samples) % n_samples);
-    for (long k = 0; k < settings.substeps; ++k) {
-      const double part = static_cast<double>(k + 1) / static_cast<double>(settings.substeps);
-      stepper.step((1.0 - part) * before + part * after + self.damping * stepper.velocity() +
-                   self.stiffness * stepper.displacement());
-      recorder.take(sample, k, stepper);
-    }
-  }
-  return recorder.motion();
+    return rise * force.col((sample + n_samples) % n_samples);
+  };
+  transient::TrapezoidalStepper stepper = stepper_of(model, settings);
+  return motion_under(load_at, &self, warm_up, n_samples, at_channels(*model.state, model.basis.vectors, channels), model,
+                      settings, stepper);
 }
 
 }  // namespace twindeck::ponte

@@ -39,23 +39,6 @@ struct Motion {
   Eigen::VectorXd rms_displacement_m;  ///< (n_channels)
 };
 
-/// Takes down the motion while it is computed.
-class MotionRecorder {
- public:
-  /// @param seen  (n_channels × r) accelerations of the channels from those of the coordinates
-  MotionRecorder(const ConditionModel& model, const CampaignSettings& settings, Eigen::MatrixXd seen, Eigen::Index n_samples);
-  /// After each substep of a sample; negative samples are the warm-up, of which nothing is kept.
-  void take(Eigen::Index sample, long substep, const transient::TrapezoidalStepper& stepper);
-  [[nodiscard]] Motion motion();
-
- private:
-  Eigen::MatrixXd seen_;
-  Eigen::Index first_late_;
-  long substeps_, late_substep_;
-  Eigen::VectorXd square_;
-  Motion motion_;
-};
-
 /// Ambient: the loads of the condition from rest, its first 100 s left out. Free decay: the static displacement under the hung
 /// mass, let go at the first sample, loads as before. Trapezoidal rule, settings.substeps steps a sample; loads are white
 /// numbers at the sampling rate, one a node and direction, joined by straight lines.
