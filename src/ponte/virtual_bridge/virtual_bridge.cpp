@@ -109,6 +109,94 @@ void add_parameter(fe::Model& model, const std::string& name, fe::Target target,
   model.parameters.push_back({name, target, {of}, unit, value, value * (1.0 - kBound), value * (1.0 + kBound)});
 }
 
+/// Gives every kind of deck member (foot_top_chord, cycle_long_diagonal, …) a modulus of its own in each of `zones` stretches
+/// from mid-length to the ends, and the non-structural mass of each deck a factor in each, as parameters
+///
+///     E_foot_top_chord_1 (Young's modulus),   m_foot_nonstructural_mass_1 (factor),   …
+///
+/// Stretches are alike north and south. This is how members come out of a workshop and a site: no two stretches the same.
+/// Values stay as they are until the parameters are changed.
+/// @param zones  >= 1
+fe::Model with_zoned_members(fe::Model model, int zones) {
+  TWINDECK_ASSERT(zones >= 1);
+  const auto x_of = [&](int node) { return model.nodes[static_cast<std::size_t>(node)].x_m.x(); };
+  std::map<std::string, double> reach_m;
+  for (const fe::PointMass& mass : model.masses) {
+    double& reach = reach_m[deck_of(mass.group)];
+    reach = std::max(reach, std::abs(x_of(mass.node)));
+  }
+  std::map<std::string, int> material_of;
+  for (fe::Element& element : model.elements) {
+    const std::string deck = deck_of(element.group);
+    if (element.type != fe::ElementType::beam || deck.empty()) continue;
+    const double x = (x_of(element.nodes[0]) + x_of(element.nodes[1])) / 2.0;
+    const std::string name = element.group + "_" + std::to_string(zone_of(x, reach_m.at(deck), zones));
+    const auto [entry, is_new] = material_of.try_emplace(name, static_cast<int>(model.materials.size()));
+    if (is_new) {
+      fe::Material material = model.materials[static_cast<std::size_t>(element.material)];
+      material.name = "steel_" + name;
+      model.materials.push_back(material);
+      add_parameter(model, "E_" + name, fe::Target::youngs_modulus, material.name, "Pa", material.youngs_modulus_Pa);
+    }
+    element.material = entry->second;
+  }
+  std::map<std::string, bool> seen;
+  for (fe::PointMass& mass : model.masses) {
+    const std::string deck = deck_of(mass.group);
+    if (deck.empty()) continue;
+    mass.group += "_" + std::to_string(zone_of(x_of(mass.node), reach_m.at(deck), zones));
+    if (!seen.emplace(mass.group, true).second) continue;
+    add_parameter(model, "m_" + mass.group, fe::Target::point_mass, mass.group, "-", 1.0);
+  }
+  return model;
+}
+
+/// The named modes of a state, as those that look most like the named modes of a neighbouring one.
+std::vector<Index> follow_named(const BridgeState& before, const BridgeState& state) {
+  const std::vector<int> followed =
+      matching::follow_modes((before.modes.shapes(Eigen::all, before.named).transpose() * state.mass_shapes).cwiseAbs2());
+  return {followed.begin(), followed.end()};
+}
+
+BridgeState solve_bridge(const VirtualBridge& bridge, const CampaignSettings& settings, const VectorXd& theta) {
+  BridgeState state;
+  const fe::PrestressState pulls = fe::find_prestress(bridge.undivided, theta);
+  if (!pulls.status.converged) throw InputError({settings.bridge, 0, "prestress"}, pulls.status.message);
+  state.chains =
+      fe::with_stay_chains(bridge.undivided, pulls, static_cast<int>(settings.stay_pieces), settings.vibrating_stays);
+  state.system = fe::assemble(state.chains.model, state.chains.state);
+  state.theta = theta;
+  dynamics::ModalSolver solver(state.system);
+  state.modes = solver.solve(theta, static_cast<int>(settings.modes));
+  if (!state.modes.status.converged) throw InputError({"", 0, "modes"}, state.modes.status.message, "ask for fewer modes");
+
+  // The chains' nodes come last, so that the first dofs are those of the undivided bridge.
+  const Index n_deck = bridge.n_deck;
+  const auto deck_mass = solver.mass().topLeftCorner(n_deck, n_deck).eval();
+  const auto deck_shapes = state.modes.shapes.topRows(n_deck);
+  const MatrixXd mass_shapes = deck_mass.selfadjointView<Eigen::Lower>() * deck_shapes;
+  state.stay_share = 1.0 - deck_shapes.cwiseProduct(mass_shapes).colwise().sum().transpose().array();
+  state.mass_shapes = solver.mass().selfadjointView<Eigen::Lower>() * state.modes.shapes;
+  state.named = nearest_named(state, settings);
+  return state;
+}
+
+/// The modes that calibration starts from: the so many-th of those with less than half of their kinetic energy in the stays.
+std::vector<Index> starting_modes(const BridgeState& state, const CampaignSettings& settings) {
+  std::vector<Index> deck;
+  for (Index j = 0; j < state.stay_share.size(); ++j)
+    if (state.stay_share[j] < kDeckMode) deck.push_back(j);
+  std::vector<Index> named;
+  for (const NamedMode& mode : settings.named) {
+    if (mode.deck_mode > std::ssize(deck))
+      throw InputError({"", 0, "mode.deck_mode"},
+                       fmt::format("is {}, but only {} of the modes are the deck's", mode.deck_mode, deck.size()),
+                       "raise `modes`");
+    named.push_back(deck[static_cast<std::size_t>(mode.deck_mode - 1)]);
+  }
+  return named;
+}
+
 }  // namespace
 
 VirtualBridge read_virtual_bridge(const std::filesystem::path& definition, const CampaignSettings& settings) {
@@ -157,45 +245,15 @@ VectorXd at_temperature(const VirtualBridge& bridge, const CampaignSettings& set
   return theta;
 }
 
-std::vector<Index> follow_named(const BridgeState& before, const BridgeState& state) {
-  const std::vector<int> followed =
-      matching::follow_modes((before.modes.shapes(Eigen::all, before.named).transpose() * state.mass_shapes).cwiseAbs2());
-  return {followed.begin(), followed.end()};
-}
-
-BridgeState solve_bridge(const VirtualBridge& bridge, const CampaignSettings& settings, const VectorXd& theta, long n_modes) {
-  BridgeState state;
-  const fe::PrestressState pulls = fe::find_prestress(bridge.undivided, theta);
-  if (!pulls.status.converged) throw InputError({settings.bridge, 0, "prestress"}, pulls.status.message);
-  state.chains =
-      fe::with_stay_chains(bridge.undivided, pulls, static_cast<int>(settings.stay_pieces), settings.vibrating_stays);
-  state.system = fe::assemble(state.chains.model, state.chains.state);
-  state.theta = theta;
-  dynamics::ModalSolver solver(state.system);
-  state.modes = solver.solve(theta, static_cast<int>(n_modes));
-  if (!state.modes.status.converged) throw InputError({"", 0, "modes"}, state.modes.status.message, "ask for fewer modes");
-
-  // The chains' nodes come last, so that the first dofs are those of the undivided bridge.
-  const Index n_deck = bridge.n_deck;
-  const auto deck_mass = solver.mass().topLeftCorner(n_deck, n_deck).eval();
-  const auto deck_shapes = state.modes.shapes.topRows(n_deck);
-  const MatrixXd mass_shapes = deck_mass.selfadjointView<Eigen::Lower>() * deck_shapes;
-  state.stay_share = 1.0 - deck_shapes.cwiseProduct(mass_shapes).colwise().sum().transpose().array();
-  state.mass_shapes = solver.mass().selfadjointView<Eigen::Lower>() * state.modes.shapes;
-  state.named = nearest_named(state, settings);
-  return state;
-}
-
 std::map<double, BridgeState> solve_states(const VirtualBridge& bridge, const CampaignSettings& settings,
                                            const VectorXd& theta) {
   std::map<double, BridgeState> states;
   const BridgeState& reference =
-      states.emplace(settings.reference_temperature_C, solve_bridge(bridge, settings, theta, settings.modes)).first->second;
+      states.emplace(settings.reference_temperature_C, solve_bridge(bridge, settings, theta)).first->second;
   refuse_stale_corrections(settings, reference);
   for (const ConditionSettings& condition : settings.conditions) {
     if (states.contains(condition.temperature_C)) continue;
-    BridgeState state =
-        solve_bridge(bridge, settings, at_temperature(bridge, settings, theta, condition.temperature_C), settings.modes);
+    BridgeState state = solve_bridge(bridge, settings, at_temperature(bridge, settings, theta, condition.temperature_C));
     state.named = follow_named(reference, state);
     states.emplace(condition.temperature_C, std::move(state));
   }
@@ -210,70 +268,14 @@ VectorXd imposed_damping(const BridgeState& state, const CampaignSettings& setti
 }
 
 MatrixXd at_channels(const BridgeState& state, const MatrixXd& x, const std::vector<sensors::LayoutChannel>& channels) {
-  std::vector<Eigen::Vector3d> places = each_of(channels, &sensors::LayoutChannel::x_m);
-  const std::vector<int> nodes = sensors::nodes_at(state.chains.model, places, kSensorAtNode_m);
+  const std::vector<int> nodes =
+      sensors::nodes_at(state.chains.model, each_of(channels, &sensors::LayoutChannel::x_m), kSensorAtNode_m);
   const MatrixXd full = state.system.expand(x);
   MatrixXd out(std::ssize(channels), x.cols());
   for (std::size_t c = 0; c < channels.size(); ++c)
     out.row(static_cast<Index>(c)) = channels[c].cosines.transpose() * full.middleRows(6 * nodes[c], 3);
   return out;
 }
-
-fe::Model with_zoned_members(fe::Model model, int zones) {
-  TWINDECK_ASSERT(zones >= 1);
-  const auto x_of = [&](int node) { return model.nodes[static_cast<std::size_t>(node)].x_m.x(); };
-  std::map<std::string, double> reach_m;
-  for (const fe::PointMass& mass : model.masses) {
-    double& reach = reach_m[deck_of(mass.group)];
-    reach = std::max(reach, std::abs(x_of(mass.node)));
-  }
-  std::map<std::string, int> material_of;
-  for (fe::Element& element : model.elements) {
-    const std::string deck = deck_of(element.group);
-    if (element.type != fe::ElementType::beam || deck.empty()) continue;
-    const double x = (x_of(element.nodes[0]) + x_of(element.nodes[1])) / 2.0;
-    const std::string name = element.group + "_" + std::to_string(zone_of(x, reach_m.at(deck), zones));
-    const auto [entry, is_new] = material_of.try_emplace(name, static_cast<int>(model.materials.size()));
-    if (is_new) {
-      fe::Material material = model.materials[static_cast<std::size_t>(element.material)];
-      material.name = "steel_" + name;
-      model.materials.push_back(material);
-      add_parameter(model, "E_" + name, fe::Target::youngs_modulus, material.name, "Pa", material.youngs_modulus_Pa);
-    }
-    element.material = entry->second;
-  }
-  std::map<std::string, bool> seen;
-  for (fe::PointMass& mass : model.masses) {
-    const std::string deck = deck_of(mass.group);
-    if (deck.empty()) continue;
-    mass.group += "_" + std::to_string(zone_of(x_of(mass.node), reach_m.at(deck), zones));
-    if (!seen.emplace(mass.group, true).second) continue;
-    add_parameter(model, "m_" + mass.group, fe::Target::point_mass, mass.group, "-", 1.0);
-  }
-  return model;
-}
-
-namespace {
-
-constexpr double kMovesDecks = 0.5;  ///< [-] of the kinetic energy in stays: a mode with less is one of the decks
-
-/// The modes that calibration starts from: the so many-th of those with less than half of their kinetic energy in the stays.
-std::vector<Index> starting_modes(const BridgeState& state, const CampaignSettings& settings) {
-  std::vector<Index> deck;
-  for (Index j = 0; j < state.stay_share.size(); ++j)
-    if (state.stay_share[j] < kMovesDecks) deck.push_back(j);
-  std::vector<Index> named;
-  for (const NamedMode& mode : settings.named) {
-    if (mode.deck_mode > std::ssize(deck))
-      throw InputError({"", 0, "mode.deck_mode"},
-                       fmt::format("is {}, but only {} of the modes are the deck's", mode.deck_mode, deck.size()),
-                       "raise `modes`");
-    named.push_back(deck[static_cast<std::size_t>(mode.deck_mode - 1)]);
-  }
-  return named;
-}
-
-}  // namespace
 
 BridgeTuning tune(const VirtualBridge& bridge, const CampaignSettings& settings, const Reporter& reporter) {
   constexpr int kSteps = 40;
@@ -283,7 +285,7 @@ BridgeTuning tune(const VirtualBridge& bridge, const CampaignSettings& settings,
   BridgeTuning found{bridge.uncorrected, VectorXd::Zero(n), {false, "no step was made"}};
   std::optional<BridgeState> before;
   for (int step = 0; step < kSteps; ++step) {
-    BridgeState state = solve_bridge(bridge, settings, found.theta, settings.modes);
+    BridgeState state = solve_bridge(bridge, settings, found.theta);
     state.named = before ? follow_named(*before, state) : starting_modes(state, settings);
     const MatrixXd slope = sensitivity::frequency_jacobian(state.system, found.theta, state.modes);
     MatrixXd jacobian(n, p);  // d ln f / d ln theta

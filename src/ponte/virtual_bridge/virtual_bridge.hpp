@@ -48,11 +48,6 @@ struct BridgeState {
   std::vector<Eigen::Index> named;
   Eigen::VectorXd stay_share;  ///< (n_modes) of kinetic energy in the stays
 };
-[[nodiscard]] BridgeState solve_bridge(const VirtualBridge& bridge, const CampaignSettings& settings,
-                                       const Eigen::VectorXd& theta, long n_modes);
-
-/// The named modes of a state, as those that look most like the named modes of a neighbouring one.
-[[nodiscard]] std::vector<Eigen::Index> follow_named(const BridgeState& before, const BridgeState& state);
 
 /// Parameters at another temperature.
 [[nodiscard]] Eigen::VectorXd at_temperature(const VirtualBridge& bridge, const CampaignSettings& settings,
@@ -71,16 +66,6 @@ struct BridgeState {
 /// Displacements of the modes or other vectors at channels. @param x (n × m) over free dofs @return (n_channels × m)
 [[nodiscard]] Eigen::MatrixXd at_channels(const BridgeState& state, const Eigen::MatrixXd& x,
                                           const std::vector<sensors::LayoutChannel>& channels);
-
-/// Gives every kind of deck member (foot_top_chord, cycle_long_diagonal, …) a modulus of its own in each of `zones` stretches
-/// from mid-length to the ends, and the non-structural mass of each deck a factor in each, as parameters
-///
-///     E_foot_top_chord_1 (Young's modulus),   m_foot_nonstructural_mass_1 (factor),   …
-///
-/// Stretches are alike north and south. This is how members come out of a workshop and a site: no two stretches the same.
-/// Values stay as they are until the parameters are changed.
-/// @param zones  >= 1
-[[nodiscard]] fe::Model with_zoned_members(fe::Model model, int zones);
 
 /// Fits corrections so that the named frequencies are the wanted ones: regularised Gauss-Newton on ln f with analytic
 /// derivatives, logarithms of the corrections as small as can be. Pulls are found anew at every step.
