@@ -93,8 +93,7 @@ std::vector<std::size_t> with_limit(const QuasiSteady::Arms& arms) {
   for (std::size_t i = 0; i < Derivatives18().size(); ++i) {
     const std::size_t number = i % 6 + 1;
     const double arm = i < 6 ? arms.lift : i < 12 ? arms.drag : arms.moment;
-    if (number == 4 || number == 6 || (number == 2 && arm == 0.0)) continue;
-    which.push_back(i);
+    if (number != 4 && number != 6 && !(number == 2 && arm == 0.0)) which.push_back(i);
   }
   return which;
 }

@@ -85,8 +85,7 @@ Eigen::MatrixXd damper_patterns(const dynamics::LoadedModel& loaded, const std::
 
 std::vector<SectionAero> sections_of(const WindSettings& config, const std::vector<DeckAerodynamics>& data,
                                      const std::string& set, double level) {
-  const std::vector<std::string> known = {"standin", "quasi_steady"};
-  if (!contains(known, set))
+  if (const std::vector<std::string> known = {"standin", "quasi_steady"}; !contains(known, set))
     throw InputError({"", 0, "sets"}, "'" + set + "' is no aerodynamic set" + did_you_mean(set, known),
                      "choose standin or quasi_steady");
   std::vector<SectionAero> sections;

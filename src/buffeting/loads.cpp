@@ -48,8 +48,7 @@ Eigen::MatrixXd strip_load(const aero::SectionAero& section, const aero::Strip& 
   const Eigen::MatrixXd motion = aero::kinematics(strip, rule.axes, wind) * at_strip;
   Eigen::MatrixXd load(at_strip.cols(), std::ssize(components));
   for (Index k = 0; k < load.cols(); ++k) {
-    const wind::Component component = components[static_cast<std::size_t>(k)];
-    if (component == wind::Component::across)
+    if (const wind::Component component = components[static_cast<std::size_t>(k)]; component == wind::Component::across)
       load.col(k) = at_strip.transpose() * across_load(section, strip, rule, wind, speed_m_s);
     else
       load.col(k) = motion.transpose() * factor.col(component == wind::Component::along ? 0 : 1);

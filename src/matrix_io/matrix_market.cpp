@@ -148,8 +148,7 @@ SizeLine read_size(MarketReader& reader) {
   if (reader.number<int>(words[1]) != n || n < 1)
     reader.fail(fmt::format("is {} x {}", words[0], words[1]), "a square matrix is expected");
   const long count = reader.number<long>(words[2]);
-  const std::uintmax_t left = reader.bytes_left();
-  if (count < 0 || static_cast<std::uintmax_t>(count) > left)
+  if (const std::uintmax_t left = reader.bytes_left(); count < 0 || static_cast<std::uintmax_t>(count) > left)
     reader.fail(fmt::format("its size line says {} entries, but {} bytes follow", count, left),
                 "the file was cut off or edited");
   return {n, count};

@@ -270,8 +270,7 @@ class BinaryOp4 : public Op4Source {
     const char* mend = "it was cut off or edited: write it again by OUTPUT4";
     if (at_ + marker_bytes > bytes_.size()) fail("the file ends before the matrix does", mend);
     const std::size_t length = number_at<std::uint32_t>(bytes_, at_, layout_.reversed);
-    const std::size_t left = bytes_.size() - at_ - marker_bytes;
-    if (left < marker_bytes || length > left - marker_bytes)
+    if (const std::size_t left = bytes_.size() - at_ - marker_bytes; left < marker_bytes || length > left - marker_bytes)
       fail(fmt::format("a record of {} bytes passes the end of the file", length), mend);
     end_ = at_ + marker_bytes + length;
     if (number_at<std::uint32_t>(bytes_, end_, layout_.reversed) != length) fail("the record's two lengths differ", mend);

@@ -7,7 +7,6 @@
 #include <utility>
 #include <vector>
 
-#include "core/error.hpp"
 #include "core/lists.hpp"
 #include "model_io/ansys_members.hpp"
 #include "model_io/ansys_stage.hpp"

@@ -66,8 +66,7 @@ class Builder {
 template <class Visit>
 void for_each_member(const Parts& parts, Visit visit) {
   for (const auto& [id, element] : parts.elements) {
-    const Member member = checked_member(parts, id, element);
-    if (member.type().kind != Kind::load) visit(member);
+    if (const Member member = checked_member(parts, id, element); member.type().kind != Kind::load) visit(member);
   }
 }
 

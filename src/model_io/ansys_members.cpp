@@ -7,7 +7,6 @@
 #include <set>
 #include <vector>
 
-#include "core/error.hpp"
 #include "core/lists.hpp"
 #include "model_io/ansys_sections.hpp"
 #include "model_io/profiles.hpp"
@@ -257,11 +256,10 @@ void add_supports(Builder& builder) {
     for (const std::size_t dof : {std::size_t{2}, std::size_t{3}, std::size_t{4}}) holds[id].fixed[dof] = true;
   }
   if (!builder.in_plane.empty()) builder.parts.note_once("BEAM3 is a beam in space whose nodes are held out of the X-Y plane");
-  for (const auto& [id, hold] : holds) {
-    if (!builder.has_node(id) || hold.fixed == std::array<bool, 6>{}) continue;
-    builder.parts.hold_along(parts.at(hold.line, "D"), hold.name.empty() ? fmt::format("node_{}", id) : hold.name,
-                             builder.node(id), node_of(builder, id).axes, hold.fixed);
-  }
+  for (const auto& [id, hold] : holds)
+    if (builder.has_node(id) && hold.fixed != std::array<bool, 6>{})
+      builder.parts.hold_along(parts.at(hold.line, "D"), hold.name.empty() ? fmt::format("node_{}", id) : hold.name,
+                               builder.node(id), node_of(builder, id).axes, hold.fixed);
 }
 
 }  // namespace twindeck::model_io::ansys

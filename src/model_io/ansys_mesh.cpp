@@ -4,12 +4,10 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <numbers>
 #include <utility>
 
-#include "core/error.hpp"
 #include "model_io/ansys_properties.hpp"
 
 /// Nodes and elements, one command each or in blocks: a command, the format of its lines, the lines.
@@ -110,8 +108,7 @@ Columns format_below(Parts& parts, const Command& block, std::size_t least_integ
 }
 
 DeckFields needed_cells(Parts& parts, const Command& block, const Columns& columns) {
-  const std::string text = needed_line(parts, block);
-  return columns.cells(here(parts, block), text);
+  return columns.cells(here(parts, block), needed_line(parts, block));
 }
 
 /// The line that ends a block of nodes: -1, or the command N,R5.3,LOC,-1 or N,UNBL,LOC,-1 of an unblocked node.

@@ -2,9 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-
-#include "core/error.hpp"
 #include "core/lists.hpp"
 
 /// Types with their key options, real constants, materials, sections.
@@ -138,8 +135,7 @@ void read_section_control(Parts& parts, const Command& command) {
   const SectionDefinition& section = current_section(parts, command);
   const bool link = section.type.starts_with("LINK"), shell = section.type.starts_with("SHEL");
   for (std::size_t i = 0; i < command.fields.size(); ++i) {
-    const double value = command.number_or(i, 0.0);
-    if (value == 0.0 || (shell && i > 3 && value == 1.0)) continue;
+    if (const double value = command.number_or(i, 0.0); value == 0.0 || (shell && i > 3 && value == 1.0)) continue;
     if (link && i == 1) {
       parts.note_once("LINK180 of tension or compression only is read as a bar that takes both");
       continue;

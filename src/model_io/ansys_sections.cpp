@@ -7,7 +7,6 @@
 #include <numbers>
 #include <optional>
 
-#include "core/error.hpp"
 #include "model_io/ansys_stage.hpp"
 #include "model_io/profiles.hpp"
 

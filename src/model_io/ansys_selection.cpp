@@ -5,8 +5,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/error.hpp"
-
 /// What is selected, and components, as far as supports and groups rest on it.
 namespace twindeck::model_io::ansys {
 namespace {

@@ -8,7 +8,6 @@
 #include <set>
 #include <utility>
 
-#include "core/error.hpp"
 #include "model_io/deck_model.hpp"
 #include "model_io/names.hpp"
 

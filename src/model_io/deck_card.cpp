@@ -8,6 +8,7 @@
 #include <cmath>
 
 #include "core/error.hpp"
+#include "core/lists.hpp"
 #include "core/units.hpp"
 
 namespace twindeck::model_io {
@@ -182,7 +183,7 @@ std::filesystem::path included_file(const DeckPlace& at, const std::filesystem::
   const auto canonical = std::filesystem::weakly_canonical(path);
   if (std::mismatch(folder.begin(), folder.end(), canonical.begin(), canonical.end()).first != folder.end())
     at.fail("the file does not lie below the folder of the deck", "copy it there, and include the copy");
-  if (open.size() >= deepest || std::ranges::find(open, canonical) != open.end())
+  if (open.size() >= deepest || contains(open, canonical))
     at.fail(fmt::format("the file '{}' includes itself", name), "take one of the INCLUDE lines out");
   return path;
 }

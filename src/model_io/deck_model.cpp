@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "core/error.hpp"
+#include "core/lists.hpp"
 #include "fe/beam_frame.hpp"
 #include "model_io/model_toml.hpp"
 #include "model_io/profiles.hpp"
@@ -21,7 +22,7 @@ bool DeckModel::together(int a, int b, double tolerance) const {
 }
 
 void DeckModel::note_once(const std::string& note) {
-  if (std::ranges::find(notes, note) == notes.end()) notes.push_back(note);
+  if (!contains(notes, note)) notes.push_back(note);
 }
 
 int DeckModel::add_node(long id, const Eigen::Vector3d& x) {

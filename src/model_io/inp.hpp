@@ -19,12 +19,11 @@ struct ImportedModel {
 
 /// Reads an .inp file, in the flavour of CalculiX or Abaqus (parts with any number of instances): nodes, beams (B31 B32 B33,
 /// profiles RECT CIRC PIPE BOX I and general sections), T3D2, S4, S3, springs, dashpots, masses, isotropic materials, supports,
-/// sets, rigid links
-/// (*MPC BEAM and TIE, *RIGID BODY, *EQUATION that amounts to one), constraints (other equations, *MPC PIN, *TIE). A B32
-/// becomes two beams. The set that a section is given to becomes the group and the section's name; a set of one node becomes a
-/// monitoring point. What the format does not know (title, gravity, parameters to update, where pulls come from) is read from
-/// the TOML file of the same stem beside it, if there is one
-/// ("frame.toml" beside "frame.inp"; its keys are those of model.toml).
+/// sets, rigid links (*MPC BEAM and TIE, *RIGID BODY, *EQUATION that amounts to one), constraints (other equations, *MPC PIN,
+/// *TIE). A B32 becomes two beams. The set that a section is given to becomes the group and the section's name; a set of one
+/// node becomes a monitoring point. What the format does not know (title, gravity, parameters to update, where pulls come from)
+/// is read from the TOML file of the same stem beside it, if there is one ("frame.toml" beside "frame.inp"; its keys are those
+/// of model.toml).
 /// @throws InputError that names file, line and card: an unsupported card, parameter or element type first of all
 [[nodiscard]] ImportedModel read_inp(const std::filesystem::path& file);
 

@@ -115,11 +115,10 @@ std::string InpCard::required(const std::string& parameter) const {
 }
 
 void InpCard::allow(const std::vector<std::string>& known) const {
-  for (const auto& [name, value] : parameters) {
-    if (name.empty() || contains(known, name)) continue;
-    fail(fmt::format("unsupported parameter {}{}", name, did_you_mean(name, known)),
-         "it would change what the card means; write the model without it");
-  }
+  for (const auto& [name, value] : parameters)
+    if (!name.empty() && !contains(known, name))
+      fail(fmt::format("unsupported parameter {}{}", name, did_you_mean(name, known)),
+           "it would change what the card means; write the model without it");
 }
 
 const InpLine& InpCard::line_of(std::size_t i, const char* what) const {

@@ -19,10 +19,8 @@ void add_to_set(const InpParts& parts, std::map<std::string, InpSet>& sets, cons
 
 /// Scope of the instance "BEAM-2" of a reference "BEAM-2.17", or -1.
 int instance_of(const std::vector<InpScope>& scopes, const std::string& reference) {
-  for (std::size_t i = 1; i < scopes.size(); ++i) {
-    const std::string prefix = upper_case(scopes[i].name) + ".";
-    if (upper_case(reference).starts_with(prefix)) return static_cast<int>(i);
-  }
+  for (std::size_t i = 1; i < scopes.size(); ++i)
+    if (upper_case(reference).starts_with(upper_case(scopes[i].name) + ".")) return static_cast<int>(i);
   return -1;
 }
 
@@ -273,8 +271,7 @@ std::vector<InpElement*> InpParts::elements_of(const InpCard& card, InpKind kind
     if (element == elements.end())
       card.fail(fmt::format("set '{}' holds element {}, which no *ELEMENT defines", card.get("ELSET"), id),
                 "define it, or take it out of the set");
-    const InpKind is = inp_kind(element->second.type);
-    if (is != kind && is != or_kind)
+    if (const InpKind is = inp_kind(element->second.type); is != kind && is != or_kind)
       card.fail(fmt::format("element {} of its set is a {}", id, element->second.type), "such an element takes another card");
     ++element->second.used;
     found.push_back(&element->second);

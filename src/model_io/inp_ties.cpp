@@ -8,7 +8,6 @@
 #include <map>
 #include <set>
 
-#include "core/error.hpp"
 #include "core/lists.hpp"
 #include "model_io/inp_surfaces.hpp"
 
@@ -152,8 +151,7 @@ void hold_masters(InpParts& parts) {
   }
   std::vector<fe::Support> merged;
   for (const fe::Support& support : supports) {
-    const auto same = std::ranges::find(merged, support.node, &fe::Support::node);
-    if (same == merged.end())
+    if (const auto same = std::ranges::find(merged, support.node, &fe::Support::node); same == merged.end())
       merged.push_back(support);
     else
       for (std::size_t d = 0; d < 6; ++d) same->fixed[d] = same->fixed[d] || support.fixed[d];

@@ -220,11 +220,10 @@ void refuse_what_cannot_be_said(const fe::Model& model) {
   const auto refuse = [&](const std::string& what, const std::string& problem, const std::string& mend) {
     throw InputError({model.source, 0, what}, problem, mend);
   };
-  for (const fe::Element& element : model.elements) {
-    if (element.section2 < 0) continue;
-    refuse(fmt::format("element {}", element.id), "is a tapered beam, for which an .inp file of ours has no section",
-           "divide it into uniform beams, or use --export-matrices");
-  }
+  for (const fe::Element& element : model.elements)
+    if (element.section2 >= 0)
+      refuse(fmt::format("element {}", element.id), "is a tapered beam, for which an .inp file of ours has no section",
+             "divide it into uniform beams, or use --export-matrices");
   if (!model.matrix_elements.empty())
     refuse(fmt::format("matrix element '{}'", model.matrix_elements.front().name),
            "is given by its matrices, which an .inp file cannot hold", "leave it out, or use --export-matrices");

@@ -2,8 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-
 #include "core/error.hpp"
 #include "core/lists.hpp"
 #include "io/csv.hpp"
@@ -17,8 +15,7 @@ constexpr const char* kFile = "loads.csv";
 
 void check_one_of(const io::CsvTable& table, std::size_t row, const std::string& column,
                   const std::vector<std::string>& known) {
-  const std::string text = table.text(row, column);
-  if (!contains(known, text))
+  if (const std::string text = table.text(row, column); !contains(known, text))
     table.fail(row, column, fmt::format("is '{}'{}", text, did_you_mean(text, known)),
                fmt::format("use {}", fmt::join(known, ", ")));
 }

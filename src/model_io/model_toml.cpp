@@ -138,12 +138,11 @@ fe::Parameter to_parameter(const std::filesystem::path& file, const fe::Model& m
     throw key_error(file, anchor, key, "'of' is missing or empty",
                     fmt::format("name the {} that it applies to", kind_of(p.target)));
   const auto known = fe::names_of_target(model, p.target);
-  for (const auto& name : p.of) {
-    if (position_of(name, known) >= 0) continue;
-    throw key_error(file, anchor, key,
-                    fmt::format("no {} is called '{}'{}", kind_of(p.target), name, did_you_mean(name, known)),
-                    "'of' lists names of the model's own files");
-  }
+  for (const auto& name : p.of)
+    if (position_of(name, known) < 0)
+      throw key_error(file, anchor, key,
+                      fmt::format("no {} is called '{}'{}", kind_of(p.target), name, did_you_mean(name, known)),
+                      "'of' lists names of the model's own files");
   if (!(p.lower <= p.initial && p.initial <= p.upper))
     throw key_error(file, anchor, key,
                     fmt::format("lower, initial, upper are {}, {}, {}, expected lower <= initial <= upper",
@@ -294,8 +293,7 @@ void write_model_toml(const fe::Model& model, const std::filesystem::path& folde
   const auto number = [](double value) { return io::format_number(value); };
   std::string text = "# SI units throughout; see nodes.csv, elements.csv and their neighbours for the parts.\n";
   text += fmt::format("title = {}\ngravity = {}\n", io::toml_text(model.title), number(model.gravity_m_s2));
-  const Eigen::Vector3d& down = model.gravity_direction;
-  if (down != fe::Model{}.gravity_direction)
+  if (const Eigen::Vector3d& down = model.gravity_direction; down != fe::Model{}.gravity_direction)
     text += fmt::format("gravity_direction = [{}, {}, {}]\n", number(down[0]), number(down[1]), number(down[2]));
   text += "\n";
   // Bound by position: a field that is added to the struct does not compile here until it is written too.

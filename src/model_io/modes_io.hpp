@@ -17,8 +17,7 @@ void write_modes(const modal::ModeSet& modes, const std::filesystem::path& folde
 /// Reads the same files, further columns are allowed; shapes.csv may be missing. Modes with 1 in a column `partial` (of several
 /// setups, of which some did not see the mode) are left out, because their shapes have holes.
 /// @throws InputError with file, line, column: a frequency that is not positive, a mode named twice, a shape of an unknown
-/// mode,
-///         a component that one mode has and another lacks
+/// mode, a component that one mode has and another lacks
 /// @param lines  gets the line of modes.csv of each mode, where it is not null
 [[nodiscard]] modal::ModeSet read_modes(const std::filesystem::path& folder, std::vector<long>* lines = nullptr);
 /// Model modes as a ModeSet (names "1", "2", …): all six directions at every node (FE), or node and direction of each dof

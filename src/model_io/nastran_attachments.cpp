@@ -67,8 +67,7 @@ Eigen::VectorXd unit_motion(const ScalarEnd& end, Eigen::Index first) {
 std::array<double, 6> bush_stiffness(Parts& parts, const Card& p) {
   std::array<double, 6> k{};
   for (std::size_t row = 0; row < p.fields.size(); row += 8) {
-    const std::string key = p.word(row + 1);
-    if (key == "K") {
+    if (const std::string key = p.word(row + 1); key == "K") {
       for (std::size_t i = 0; i < 6; ++i) k[i] = p.number_or(row + 2 + i, 0.0);
     } else if (key == "B") {
       parts.note_once(property_name(p) + ": its damping (B) is left out; a damper goes into springs.csv of the model folder");
@@ -106,11 +105,10 @@ Eigen::Matrix3d bush_axes(Parts& parts, const Card& card, bool apart, bool axial
 /// Springs at one place, or one along the line of its nodes: no arms.
 void add_bush_springs(Parts& parts, const Card& card, const std::string& group, const std::array<double, 6>& k,
                       const Eigen::Matrix3d& axes, int a, int b) {
-  for (std::size_t i = 0; i < 6; ++i) {
-    if (k[i] == 0.0) continue;
-    parts.add_spring(fmt::format("cbush_{}_{}", card.text(0), direction_names()[i]), group, a, b, static_cast<int>(i), axes,
-                     k[i]);
-  }
+  for (std::size_t i = 0; i < 6; ++i)
+    if (k[i] != 0.0)
+      parts.add_spring(fmt::format("cbush_{}_{}", card.text(0), direction_names()[i]), group, a, b, static_cast<int>(i), axes,
+                       k[i]);
 }
 
 using MassMatrix = Eigen::Matrix<double, 6, 6>;

@@ -36,8 +36,7 @@ std::string frames_of(const Card& card) {
 /// The vector v of a member in basic axes: by a grid (G0) or by components.
 Eigen::Vector3d plane_vector(Parts& parts, const Card& card, char frame) {
   const long a = card.integer(2);
-  const std::string first = card.text(4);
-  if (is_whole_number(first) && first != "0" && card.blank(5) && card.blank(6))
+  if (const std::string first = card.text(4); is_whole_number(first) && first != "0" && card.blank(5) && card.blank(6))
     return parts.grid_place(card, card.integer(4)) - parts.grid_place(card, a);
   const Eigen::Vector3d v = card.vector(4);
   return frame == 'B' ? v : Eigen::Vector3d(parts.displacement_axes(card, a).transpose() * v);

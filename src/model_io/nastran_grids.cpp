@@ -44,8 +44,7 @@ long system_number(const Parts& parts, const Card& grid, std::size_t i) {
 }
 
 void index_in(std::map<long, const Card*>& list, const Card& card) {
-  const long id = card.integer(0);
-  if (!list.emplace(id, &card).second)
+  if (const long id = card.integer(0); !list.emplace(id, &card).second)
     card.fail(fmt::format("the number {} is defined twice", id), "keep one of the two cards");
 }
 

@@ -31,11 +31,10 @@ fe::Section to_section(const std::string& name, const Station& s, double k1, dou
 
 void check_station(const Card& card, const Station& s) {
   const std::array<const char*, 5> names = {"the area", "I1", "I2", "", "J"};
-  for (const std::size_t i : {0U, 1U, 2U, 4U}) {
-    if (s[i] > 0.0) continue;
-    card.fail(fmt::format("{} is {:g}, expected a value above 0", names[i], s[i]),
-              i == 0 ? "give the area" : "a member without it is held by AUTOSPC there; give a small value, or use CROD");
-  }
+  for (const std::size_t i : {0U, 1U, 2U, 4U})
+    if (!(s[i] > 0.0))
+      card.fail(fmt::format("{} is {:g}, expected a value above 0", names[i], s[i]),
+                i == 0 ? "give the area" : "a member without it is held by AUTOSPC there; give a small value, or use CROD");
   if (s[5] < 0.0) card.fail("the nonstructural mass is negative", "check the sign");
 }
 

@@ -230,8 +230,7 @@ void read_supports(Parts& parts) {
   }
   for (const auto& [grid, support] : parts.held) {
     const auto& [held, by] = support;
-    const auto node = parts.node_position.find(grid);
-    if (node != parts.node_position.end())
+    if (const auto node = parts.node_position.find(grid); node != parts.node_position.end())
       parts.hold_along(*by, fmt::format("grid_{}", grid), node->second, parts.displacement_axes(*by, grid), held);
   }
 }

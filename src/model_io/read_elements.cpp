@@ -22,8 +22,7 @@ int position_by_name(const io::CsvTable& table, std::size_t row, const std::stri
                      const std::map<std::string, int>& known) {
   const std::string name = table.text(row, column);
   const std::string file = column.starts_with("section") ? "section" : column;  // section, section2: sections.csv
-  const auto found = known.find(name);
-  if (found != known.end()) return found->second;
+  if (const auto found = known.find(name); found != known.end()) return found->second;
   std::vector<std::string> names;
   for (const auto& [known_name, position] : known) names.push_back(known_name);
   table.fail(row, column, fmt::format("{} '{}' is not in {}s.csv{}", column, name, file, did_you_mean(name, names)),
@@ -214,8 +213,7 @@ void read_elements(const std::filesystem::path& folder, fe::Model& model, const 
 
 int NameIndex::node(const io::CsvTable& table, std::size_t row, const std::string& column) const {
   const long id = table.integer(row, column);
-  const auto found = nodes.find(id);
-  if (found != nodes.end()) return found->second;
+  if (const auto found = nodes.find(id); found != nodes.end()) return found->second;
   const std::string range = nodes.empty() ? "which is empty"
                                           : fmt::format("which has {} nodes from {} to {}", nodes.size(), nodes.begin()->first,
                                                         nodes.rbegin()->first);

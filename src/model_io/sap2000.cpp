@@ -11,7 +11,6 @@
 #include <numbers>
 #include <set>
 
-#include "core/error.hpp"
 #include "io/text_lines.hpp"
 #include "model_io/deck_card.hpp"
 #include "model_io/deck_model.hpp"

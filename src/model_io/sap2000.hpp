@@ -15,8 +15,7 @@ namespace twindeck::model_io {
 /// of bending. A section is the group of its members; shells are thin plates. Tables of loads, cases, design and output say
 /// nothing about the structure. As with read_inp the TOML file of the same stem beside it may give the rest.
 /// @throws InputError that names file, line and table: a table of the structure that is not carried (links, constraints,
-/// cables,
-///         solids, offsets, modifiers of elements) first of all; modes about a loaded state; masses that come from loads
+/// cables, solids, offsets, modifiers of elements) first of all; modes about a loaded state; masses that come from loads
 [[nodiscard]] ImportedModel read_sap2000(const std::filesystem::path& file);
 
 }  // namespace twindeck::model_io

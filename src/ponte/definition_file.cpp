@@ -177,8 +177,7 @@ void DefinitionFile::check_overrides(const std::string& table) {
   for (const auto& [path, value] : values_)
     if (!path.starts_with("change.") && !path.starts_with("variant")) bridge.push_back(path);
   for (const std::string& key : paths_below(table)) {
-    const std::string target = key.substr(table.size() + 1);
-    if (!contains(bridge, target))
+    if (const std::string target = key.substr(table.size() + 1); !contains(bridge, target))
       fail(key, "overrides '" + target + "', which this file does not have" + did_you_mean(target, bridge),
            "name a key by its dotted path, for example \"mast.infill_z\"");
     values_.at(key).known = true;

@@ -6,6 +6,7 @@
 #include <fstream>
 
 #include "core/error.hpp"
+#include "core/lists.hpp"
 #include "fe/assembly_parameters.hpp"
 #include "fe/validate_parts.hpp"
 #include "ponte/bridge_definition.hpp"
@@ -94,7 +95,7 @@ void add_parameters(fe::Model& model, const BridgeDefinition& definition) {
   for (const ParameterDefinition& p : definition.parameters) {
     const std::vector<std::string> known = fe::names_of_target(model, p.target);
     for (const std::string& of : p.of)
-      if (std::ranges::find(known, of) == known.end())
+      if (!contains(known, of))
         throw InputError({definition.source, 0, "parameter '" + p.name + "' of"},
                          "names '" + of + "', which the model does not have" + did_you_mean(of, known),
                          "name a material, a section or a group of springs or masses, as the target asks");

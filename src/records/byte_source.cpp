@@ -53,8 +53,7 @@ struct ByteSource::State {
         stream.avail_in = static_cast<uInt>(take(buffer.data(), buffer.size(), what));
         stream.next_in = reinterpret_cast<Bytef*>(buffer.data());
       }
-      const int code = inflate(&stream, Z_NO_FLUSH);
-      if (code == Z_STREAM_END) {
+      if (const int code = inflate(&stream, Z_NO_FLUSH); code == Z_STREAM_END) {
         ended = true;
       } else if (code == Z_BUF_ERROR || (code == Z_OK && stream.avail_in == 0 && left == 0 && stream.avail_out > 0)) {
         break;

@@ -77,8 +77,7 @@ void check_record(const Campaign& campaign, const CampaignRecord& record, const 
     throw InputError(at("columns"),
                      fmt::format("has {} entries for {} channels", record.columns.size(), record.channels.size()),
                      "give each entry of `channels` its column in the file");
-  const auto& conditions = campaign.conditions;
-  if (!conditions.empty() && !contains(conditions, record.condition))
+  if (const auto& conditions = campaign.conditions; !conditions.empty() && !contains(conditions, record.condition))
     throw InputError(
         at("condition"),
         fmt::format("'{}' is no table of conditions.toml{}", record.condition, did_you_mean(record.condition, conditions)),

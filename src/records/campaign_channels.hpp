@@ -23,8 +23,7 @@ struct CampaignChannel {
 /// Reads channels.csv. `gain` alone converts to SI; `unit` says what is recorded and must not contradict it.
 /// @param warnings  gets a line for channels in volts or counts without a gain: modes need no scale, anything else does
 /// @throws InputError  with file, line and column: a channel twice, a direction that is none, a unit that is empty, not known,
-/// of another
-///                     quantity, or contradicted by the gain
+/// of another quantity, or contradicted by the gain
 [[nodiscard]] std::vector<CampaignChannel> read_campaign_channels(const std::filesystem::path& file,
                                                                   std::vector<std::string>& warnings);
 

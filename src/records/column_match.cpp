@@ -119,8 +119,7 @@ ColumnMatch match_columns(const RecordInfo& info, const std::vector<std::string>
     const Index at = position_of(names, name, file);
     if (at >= 0) match.columns.push_back(at);
     if (at < 0 && missing.empty()) missing = name;
-    const auto& line = info.unaligned_header;
-    if (at < 0 && misplaced.empty() && contains(line, name)) misplaced = name;
+    if (const auto& line = info.unaligned_header; at < 0 && misplaced.empty() && contains(line, name)) misplaced = name;
   }
   if (match.columns.size() == channels.size()) return match;
   if (ColumnMatch other = by_other_names(info, channels, file); !other.columns.empty()) return other;

@@ -174,13 +174,12 @@ CorrectedChannel corrected(const std::vector<Correction>& corrections, const std
 void refuse_unknown_channels(const std::vector<Correction>& corrections, const std::vector<std::string>& known,
                              const std::string& source) {
   for (const Correction& c : corrections) {
-    for (const std::string* name : {&c.channel, &c.with}) {
-      if ((name == &c.with && c.action != Action::exchange) || contains(known, *name)) continue;
-      throw InputError({c.place.file, c.place.line, name == &c.with ? "with" : "channel"},
-                       fmt::format("'{}' is no channel of {}{}", *name, source, did_you_mean(*name, known)),
-                       known.empty() ? "there are no channels, so that nothing can be corrected"
-                                     : fmt::format("it has {}", fmt::join(known, ", ")));
-    }
+    for (const std::string* name : {&c.channel, &c.with})
+      if (!(name == &c.with && c.action != Action::exchange) && !contains(known, *name))
+        throw InputError({c.place.file, c.place.line, name == &c.with ? "with" : "channel"},
+                         fmt::format("'{}' is no channel of {}{}", *name, source, did_you_mean(*name, known)),
+                         known.empty() ? "there are no channels, so that nothing can be corrected"
+                                       : fmt::format("it has {}", fmt::join(known, ", ")));
   }
 }
 
@@ -189,8 +188,7 @@ void correct(const std::vector<Correction>& corrections, FeatureRows& features) 
   Eigen::VectorXd factors = Eigen::VectorXd::Ones(std::ssize(features.rows));
   for (std::size_t r = 0; r < features.rows.size(); ++r) {
     FeatureRow& row = features.rows[r];
-    const bool by_channel = row.is_shape() || (!row.is_modal() && row.type != "stay_frequency_Hz");
-    if (!by_channel) continue;
+    if (!row.is_shape() && (row.is_modal() || row.type == "stay_frequency_Hz")) continue;  // not by channel
     const CorrectedChannel now = corrected(corrections, row.channel);
     const bool is_signed = row.is_shape() || row.type.starts_with("static_");
     const double factor = is_signed                       ? now.factor

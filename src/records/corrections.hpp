@@ -36,8 +36,7 @@ struct Correction {
 
 /// Reads corrections.toml: `[[correction]]` with `channel`, `action` and, of an exchange, `with`, of a scale, `factor`.
 /// @throws InputError  naming file, line and key: no correction at all, an unknown key or action, a key that is missing or does
-/// not
-///         belong to the action, a factor that is not above 0, a channel exchanged with itself, a correction that stands twice
+/// not belong to the action, a factor that is not above 0, a channel exchanged with itself, a correction that stands twice
 [[nodiscard]] std::vector<Correction> read_corrections(const std::filesystem::path& file);
 
 /// The correction of a list that the next one would cancel, if any.

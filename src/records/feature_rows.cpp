@@ -30,8 +30,7 @@ template <class Part>
 const Part& named(const io::CsvTable& table, std::size_t at, const std::string& column, const std::vector<Part>& parts,
                   const std::string& file) {
   const std::string text = table.text(at, column);
-  const auto found = std::ranges::find(parts, text, &Part::name);
-  if (found != parts.end()) return *found;
+  if (const auto found = std::ranges::find(parts, text, &Part::name); found != parts.end()) return *found;
   table.fail(at, column,
              fmt::format("{} '{}' is not in {}{}", column, text, file, did_you_mean(text, each_of(parts, &Part::name))),
              "add it there, or mend the name");
@@ -101,8 +100,7 @@ FeatureRow read_row(const io::CsvTable& table, std::size_t at, const std::vector
   FeatureRow row;
   row.line = table.line(at);
   row.type = table.text(at, "type");
-  const std::vector<std::string>& types = feature_types();
-  if (!contains(types, row.type))
+  if (const std::vector<std::string>& types = feature_types(); !contains(types, row.type))
     table.fail(at, "type", fmt::format("'{}' is not a known type of row{}", row.type, did_you_mean(row.type, types)),
                fmt::format("use {}", fmt::join(types, ", ")));
   row.mode = read_mode(table, at, row);

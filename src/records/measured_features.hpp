@@ -19,9 +19,8 @@ struct MeasuredChoice {
 /// are shapes, channels.csv. Modes come in ascending frequency; held-out rows are not read.
 /// @param choice  which condition (choose_condition), and the corrections to apply
 /// @throws InputError  with file, line, column: an unknown type, condition, state or channel, a row without a standard
-/// deviation, a mode
-///                     without a frequency, a mode without a shape where others have one. Channels that one mode lacks are NaN
-///                     there
+/// deviation, a mode without a frequency, a mode without a shape where others have one. Channels that one mode lacks are NaN
+/// there
 [[nodiscard]] matching::Measured read_measured_features(const std::filesystem::path& folder, const MeasuredChoice& choice);
 
 }  // namespace twindeck::records

@@ -13,8 +13,7 @@ namespace twindeck::records {
 /// channels.csv: `channel` and, as far as known, `point,x_m,y_m,z_m,dx,dy,dz,quantity,unit,gain,reference,role`; of
 /// load tests `element,xi` for a strain (y_m, z_m are then the fibre in the section) and `support` for a force.
 /// @throws InputError  for a channel named twice, direction cosines that are not a unit vector (within 2 %), an unknown unit,
-/// or one
-///         that the gain contradicts
+/// or one that the gain contradicts
 [[nodiscard]] std::vector<matching::Channel> read_channels(const std::filesystem::path& file);
 
 /// A table of conditions.toml: the circumstances of a measurement. Unknown values are empty.

@@ -62,8 +62,7 @@ using Visitor = std::function<void(Eigen::Index first_sample, Eigen::Index first
 /// of time is no channel. Memory beside that: sixteen bytes a time stamp. Formats: CSV and its kin, NPY, MAT 4, 5 and 7.3,
 /// HDF5, universal files with sets 58 and 58b.
 /// @throws InputError  with file and line: an unknown format, no numbers, a file that breaks off, a line below the header that
-/// is no
-///                     row of numbers (see ReadOptions), a pipe or device
+/// is no row of numbers (see ReadOptions), a pipe or device
 RecordInfo scan(const std::filesystem::path& file, const Visitor& visit, const ReadOptions& options = {});
 
 /// A whole record, on its clock: gaps are rows of NaN, rows that are there twice are there once (on_the_clock).

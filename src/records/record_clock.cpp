@@ -354,8 +354,7 @@ double StampedRows::likely_unit_s(double step, double first) {
   for (const double year_1990 : {6.278e17, 1.228e17})  // [ticks] since 0001 and 1601; a century more is the same digits
     if (first > year_1990 && first < year_1990 + 3.2e16) return tick;
   for (const double unit : {1.0, 1e-3, 1e-6, 1e-9, 86400.0}) {
-    const double rate = 1.0 / (step * unit);
-    if (rate >= slowest * (1.0 - 1e-3) && rate <= fastest) return unit;
+    if (const double rate = 1.0 / (step * unit); rate >= slowest * (1.0 - 1e-3) && rate <= fastest) return unit;
   }
   return 1.0;
 }

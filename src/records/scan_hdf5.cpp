@@ -302,11 +302,10 @@ RecordInfo scan_hdf5(const fs::path& file, const Visitor& visit) {
   found.matlab = beginning == "MATLAB 7.3";
   look_through(handle.get(), found);
   const ArrayChoice choice = choose_arrays(found.arrays, found.others, file.string());
-  for (const std::size_t at : choice.data) {
-    if (found.problems[at].empty()) continue;
-    throw InputError({file.string(), 0, found.arrays[at].name}, found.problems[at],
-                     "write the file again, with all values in it");
-  }
+  for (const std::size_t at : choice.data)
+    if (!found.problems[at].empty())
+      throw InputError({file.string(), 0, found.arrays[at].name}, found.problems[at],
+                       "write the file again, with all values in it");
   RecordInfo info = info_of(found, choice);
   const Index samples = found.arrays[choice.data.front()].longer();
   const bool matrix = choice.data.size() == 1;

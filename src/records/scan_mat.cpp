@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <functional>
 
-#include "core/error.hpp"
 #include "core/lists.hpp"
 #include "records/array_choice.hpp"
 #include "records/mat_file.hpp"

@@ -12,7 +12,6 @@
 #include <string>
 #include <utility>
 
-#include "core/error.hpp"
 #include "core/lists.hpp"
 #include "io/letters.hpp"
 #include "records/take_clock.hpp"
@@ -118,8 +117,7 @@ Series read_series_header(UniversalLines& in, const std::string& set_line, const
   const std::string axis = need_inside(in, what);
   series.abscissa = static_cast<int>(integer_or(field(axis, 0, 10), 17));
   series.unit_s = time_unit_s(field(axis, 47, 20));
-  const std::string ordinate = need_inside(in, what);
-  series.channel.unit = field(ordinate, 47, 20);
+  series.channel.unit = field(need_inside(in, what), 47, 20);
   if (series.channel.unit == "NONE") series.channel.unit.clear();
   need_inside(in, what);
   need_inside(in, what);
@@ -214,8 +212,7 @@ void read_binary_values(UniversalLines& in, Series& series, const std::string& w
     const std::size_t first = tail.find_first_not_of("\r\n");
     return first != std::string::npos && tail.compare(first, 6, "    -1") == 0;
   };
-  const std::string ahead = in.peek(0, 1);
-  if (ahead == "\n" && !ends_at(expected) && ends_at(expected + 1)) {
+  if (const std::string ahead = in.peek(0, 1); ahead == "\n" && !ends_at(expected) && ends_at(expected + 1)) {
     in.take(1);
     info.notes.push_back(what + " has a newline before its binary data");
   }
@@ -267,8 +264,7 @@ bool begins_known_set(const std::string& line) {
 
 void read_set(UniversalLines& in, const std::string& set_line, const Visitor& visit, RecordInfo& info, UniversalData& data,
               int& other_series) {
-  const long set = set_number(set_line);
-  if (set <= 0) {
+  if (const long set = set_number(set_line); set <= 0) {
     in.fail(fmt::format("holds '{}' after -1, expected the number of a set", field(set_line, 0, 40)), "write the file again");
   } else if (set == 58) {
     read_series(in, set_line, visit, info, other_series);

@@ -53,8 +53,7 @@ std::vector<long> nodes_of(const std::vector<NodalResult>& modes, const Universa
              fmt::format("has mode {} at {:.6g} Hz at other nodes than mode {} at {:.6g} Hz", mode.mode, mode.frequency_Hz,
                          modes.front().mode, modes.front().frequency_Hz),
              "export all modes at the same nodes");
-    const Index per_node = mode.values.begin()->second.size();
-    if (per_node < kTranslations)
+    if (const Index per_node = mode.values.begin()->second.size(); per_node < kTranslations)
       refuse(file, fmt::format("has mode {} with {} values a node, expected three or six", mode.mode, per_node),
              "export mode shapes as displacements of three directions");
   }

@@ -156,8 +156,7 @@ void read_units(UniversalLines& in, UniversalData& data) {
   need_inside(in, "set 164");
   for (std::string line; in.next(line);) {
     if (is_delimiter(line)) return;
-    const auto numbers = numbers_in(line);
-    if (!numbers.empty() && !data.has_units) {
+    if (const auto numbers = numbers_in(line); !numbers.empty() && !data.has_units) {
       data.has_units = true;
       if (numbers[0] > 0.0 && std::isfinite(numbers[0])) data.length_factor = numbers[0];
     }

@@ -156,8 +156,7 @@ void look_for_further_points(Search& search, Index n, const FormOptions& options
     if (!away_from(result.points, at) || (search.value(at) <= 0.0) != (result.points.front().beta > 0.0)) continue;
     result.strong_maximum = false;
     if (++searches > options.starts) break;
-    const auto found = search.from(at);
-    if (found) add(result.points, *found);
+    if (const auto found = search.from(at)) add(result.points, *found);
   }
 }
 
@@ -178,8 +177,7 @@ FormResult form(const LimitState& g, Index n, const FormOptions& options) {
   for (int start = 0; start <= options.starts; ++start) {
     const VectorXd u = start == 0 ? VectorXd(VectorXd::Zero(n))
                                   : VectorXd(3.0 * direction(n, options.seed, static_cast<std::uint64_t>(start)));
-    const auto found = search.from(u);
-    if (found) add(result.points, *found);
+    if (const auto found = search.from(u)) add(result.points, *found);
   }
   const auto nearer = [](const DesignPoint& a, const DesignPoint& b) { return a.u.norm() < b.u.norm(); };
   if (result.points.empty()) {

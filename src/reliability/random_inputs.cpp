@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <Eigen/Cholesky>
+#include <algorithm>
 #include <array>
 #include <boost/math/distributions/extreme_value.hpp>
 #include <boost/math/distributions/weibull.hpp>
@@ -23,11 +24,8 @@ using Eigen::VectorXd;
 
 namespace {
 
-constexpr std::array<std::pair<const char*, LawKind>, 5> kLaws = {{{"normal", LawKind::normal},
-                                                                   {"lognormal", LawKind::lognormal},
-                                                                   {"uniform", LawKind::uniform},
-                                                                   {"gumbel", LawKind::gumbel},
-                                                                   {"weibull", LawKind::weibull}}};
+/// In the order of LawKind.
+constexpr std::array<const char*, 5> kLaws = {"normal", "lognormal", "uniform", "gumbel", "weibull"};
 
 /// Two parameters of a law from its mean and deviation: location and scale, scale and shape, or the two ends.
 struct Parameters {
@@ -148,16 +146,11 @@ void check(const RandomInput& input) {
 }  // namespace
 
 std::optional<LawKind> law_kind(const std::string& name) {
-  for (const auto& [known, kind] : kLaws)
-    if (name == known) return kind;
-  return std::nullopt;
+  const auto at = std::ranges::find(kLaws, name);
+  return at == kLaws.end() ? std::nullopt : std::optional(static_cast<LawKind>(at - kLaws.begin()));
 }
 
-std::string law_name(LawKind kind) {
-  for (const auto& [known, each] : kLaws)
-    if (each == kind) return known;
-  return "";
-}
+std::string law_name(LawKind kind) { return kLaws.at(static_cast<std::size_t>(kind)); }
 
 RandomVector::RandomVector(std::vector<RandomInput> inputs, const MatrixXd& correlation) : inputs_(std::move(inputs)) {
   for (std::size_t i = 0; i < inputs_.size(); ++i) {

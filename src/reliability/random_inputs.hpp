@@ -33,8 +33,7 @@ class RandomVector {
  public:
   /// @param correlation  (n × n) of z in the order of `inputs`; empty: independent
   /// @throws InputError  with the input's name: a deviation below zero, ends in the wrong order or without probability between
-  /// them, a
-  ///                     law that its mean excludes; a correlation matrix that is not positive definite
+  /// them, a law that its mean excludes; a correlation matrix that is not positive definite
   explicit RandomVector(std::vector<RandomInput> inputs, const Eigen::MatrixXd& correlation = {});
 
   [[nodiscard]] Eigen::Index dimension() const { return std::ssize(random_); }  ///< of u

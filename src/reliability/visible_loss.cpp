@@ -8,6 +8,7 @@
 #include <numbers>
 
 #include "core/distributions.hpp"
+#include "core/lists.hpp"
 #include "core/parallel.hpp"
 
 namespace twindeck::reliability {
@@ -30,7 +31,7 @@ double wall_of(const fe::Model& model, const Wall& wall) {
   if (wall.thickness_m > 0.0) return wall.thickness_m / wall.sides;
   double least = std::numeric_limits<double>::infinity();
   for (const fe::Section& section : model.sections) {
-    if (std::ranges::find(wall.sections, section.name) == wall.sections.end()) continue;
+    if (!contains(wall.sections, section.name)) continue;
     const double there =
         section.thickness_m > 0.0 ? section.thickness_m / wall.sides : std::sqrt(section.area_m2 / std::numbers::pi);
     least = std::min(least, there);

@@ -34,13 +34,14 @@ double Wall::remaining(const fe::Section& section, double years) const {
 }
 
 fe::Model worn_model(fe::Model model, const std::vector<Wall>& walls, double years) {
-  std::vector<std::string> known = each_of(model.sections, &fe::Section::name);
   for (const Wall& wall : walls) {
     for (const std::string& name : wall.sections) {
       const auto at = std::ranges::find(model.sections, name, &fe::Section::name);
       if (at == model.sections.end())
-        throw InputError({"", 0, "wall.sections"}, "names '" + name + "', which is no section" + did_you_mean(name, known),
-                         "choose among the sections of sections.csv");
+        throw InputError(
+            {"", 0, "wall.sections"},
+            "names '" + name + "', which is no section" + did_you_mean(name, each_of(model.sections, &fe::Section::name)),
+            "choose among the sections of sections.csv");
       const double share = wall.remaining(*at, years), inertia = wall.thickness_m > 0.0 ? share : share * share;
       for (double* value : {&at->area_m2, &at->shear_area_y_m2, &at->shear_area_z_m2, &at->thickness_m}) *value *= share;
       for (double* value : {&at->inertia_y_m4, &at->inertia_z_m4, &at->inertia_yz_m4, &at->torsion_m4}) *value *= inertia;

@@ -11,7 +11,6 @@
 #include <cstdio>
 #include <limits>
 #include <new>
-#include <stdexcept>
 #include <string_view>
 #include <system_error>
 

@@ -2,9 +2,8 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-
 #include "core/error.hpp"
+#include "core/lists.hpp"
 #include "io/config.hpp"
 
 namespace twindeck::runner {
@@ -39,11 +38,10 @@ const std::vector<std::string> known_steps = {"s0_campaign",   "s1_model",      
                                               "s8_validation", "s9_diagnosis",   "s10_reliability"};
 
 void check_steps(const std::vector<std::string>& steps, const std::filesystem::path& file) {
-  for (const std::string& step : steps) {
-    if (std::ranges::find(known_steps, step) != known_steps.end()) continue;
-    throw InputError({file.string(), 0, "steps"}, fmt::format("'{}' is no step{}", step, did_you_mean(step, known_steps)),
-                     fmt::format("the steps are {}", fmt::join(known_steps, ", ")));
-  }
+  for (const std::string& step : steps)
+    if (!contains(known_steps, step))
+      throw InputError({file.string(), 0, "steps"}, fmt::format("'{}' is no step{}", step, did_you_mean(step, known_steps)),
+                       fmt::format("the steps are {}", fmt::join(known_steps, ", ")));
 }
 
 }  // namespace

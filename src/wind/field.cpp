@@ -4,7 +4,6 @@
 
 #include <Eigen/Cholesky>
 #include <cmath>
-#include <complex>
 #include <numbers>
 
 #include "core/error.hpp"

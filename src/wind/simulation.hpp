@@ -29,8 +29,7 @@ struct SimulationOptions {
   double rate_Hz = 16.0;      ///< samples a second; T times it is rounded to a whole number of samples
   double cutoff_Hz = 0.0;     ///< no wave at or above; 0 means half the rate
   /// Frequencies, evenly spaced on a logarithmic scale, at which the coherence is factorised; in between the factor is
-  /// interpolated and its rows are scaled to length one, so that every point keeps its exact spectrum. 0: at every
-  /// frequency.
+  /// interpolated and its rows are scaled to length one, so that every point keeps its exact spectrum. 0: at every frequency.
   int anchors = 40;
   Amplitudes amplitudes = Amplitudes::fixed;
   Frequencies frequencies = Frequencies::single;

@@ -3,11 +3,11 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include <algorithm>
 #include <cmath>
 #include <utility>
 
 #include "core/error.hpp"
+#include "core/lists.hpp"
 #include "io/csv.hpp"
 
 namespace twindeck::aero {
@@ -47,8 +47,7 @@ std::array<Curve, 3> read_curves(const io::CsvTable& table, const std::filesyste
   }
   for (const wind::Component c : wind::components) {
     const auto rows = curves[static_cast<std::size_t>(c)].rows.size();
-    const bool is_wanted = std::ranges::find(wanted, c) != wanted.end();
-    if (rows < 2 && (is_wanted || rows > 0))
+    if (rows < 2 && (rows > 0 || contains(wanted, c)))
       throw InputError({file.string(), 0, "component"},
                        fmt::format("has too few rows of {} ({}), expected at least two", wind::paper_letter(c), rows),
                        fmt::format("add rows with component = {}", wind::paper_letter(c)));

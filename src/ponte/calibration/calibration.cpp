@@ -178,10 +178,9 @@ Values bridge_values(const Calibration& calibration, const Eigen::VectorXd& part
   Values out = calibration.set;
   for (std::size_t v = 0; v < calibration.values.size(); ++v) {
     const CalibrationValue& value = calibration.values[v];
-    for (std::size_t p = 0; p < value.paths.size(); ++p) {
-      if (calibration.set.contains(value.paths[p])) continue;
-      out.emplace(value.paths[p], 1.0).first->second *= value.factors[p] * value.at(part[static_cast<Eigen::Index>(v)]);
-    }
+    for (std::size_t p = 0; p < value.paths.size(); ++p)
+      if (!calibration.set.contains(value.paths[p]))
+        out.emplace(value.paths[p], 1.0).first->second *= value.factors[p] * value.at(part[static_cast<Eigen::Index>(v)]);
   }
   return out;
 }

@@ -268,11 +268,10 @@ void write_calibration_known(const Calibration& calibration, const CalibrationRe
       csv.row({variant, "mass", m.known.name, m.reason, "kg/m", m.known.mass_kg_m, m.known.std_kg_m, m.lower_kg_m, m.upper_kg_m,
                before.mass_kg_m[row], after.mass_kg_m[row]});
     });
-    for (const CalibrationLimit& limit : calibration.limits) {
-      if (limit.variant != variant) continue;
-      csv.row({variant, "displacement", "anchors", limit.reason, "m", none, limit.limit.std_m, none, limit.limit.limit_m,
-               largest(before.displacement_m), largest(after.displacement_m)});
-    }
+    for (const CalibrationLimit& limit : calibration.limits)
+      if (limit.variant == variant)
+        csv.row({variant, "displacement", "anchors", limit.reason, "m", none, limit.limit.std_m, none, limit.limit.limit_m,
+                 largest(before.displacement_m), largest(after.displacement_m)});
   }
   csv.save(file);
 }

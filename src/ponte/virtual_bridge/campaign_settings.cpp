@@ -8,8 +8,7 @@
 namespace twindeck::ponte {
 
 const ConditionSettings& CampaignSettings::condition(const std::string& name) const {
-  const auto at = std::ranges::find(conditions, name, &ConditionSettings::name);
-  if (at != conditions.end()) return *at;
+  if (const auto at = std::ranges::find(conditions, name, &ConditionSettings::name); at != conditions.end()) return *at;
   throw InputError({"", 0, "condition"},
                    "'" + name + "' is not there" + did_you_mean(name, each_of(conditions, &ConditionSettings::name)),
                    "add a table [[condition]] of this name");

@@ -7,7 +7,6 @@
 #include <cmath>
 #include <optional>
 
-#include "core/error.hpp"
 #include "core/lists.hpp"
 #include "io/atomic.hpp"
 #include "steps/identification/exports.hpp"

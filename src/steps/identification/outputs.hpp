@@ -7,7 +7,6 @@
 #include "identification/condition.hpp"
 #include "identification/decays.hpp"
 #include "identification/stays.hpp"
-#include "io/csv.hpp"
 
 namespace twindeck::steps {
 

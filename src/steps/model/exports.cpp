@@ -64,11 +64,10 @@ void export_inp(const dynamics::LoadedModel& loaded, int n_modes, const runner::
   };
   const auto calculix = write(model_io::InpFlavour::calculix, "model.inp");
   const auto abaqus = write(model_io::InpFlavour::abaqus, "model_abaqus.inp");
-  const auto is_in = [](const std::vector<std::string>& notes, const std::string& note) { return contains(notes, note); };
   for (const std::string& note : calculix)
-    context.say((is_in(abaqus, note) ? "model.inp, model_abaqus.inp: " : "model.inp: ") + note);
+    context.say((contains(abaqus, note) ? "model.inp, model_abaqus.inp: " : "model.inp: ") + note);
   for (const std::string& note : abaqus)
-    if (!is_in(calculix, note)) context.say("model_abaqus.inp: " + note);
+    if (!contains(calculix, note)) context.say("model_abaqus.inp: " + note);
 }
 
 /// Nodes (set 2411), elements (2412), a trace line a group of beams and bars (82), and each mode's translations (55),

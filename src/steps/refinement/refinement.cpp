@@ -164,8 +164,7 @@ runner::Computation read_refinement(runner::StepContext& context, const Refineme
   RefinementInputs read;
   read.initial = load_model(context, context.results / "s1_model" / "model");
   if (!context.model && !context.study.empty()) {
-    const runner::Study study = runner::read_study(context.study);
-    if (!study.model_generator.empty()) {
+    if (const runner::Study study = runner::read_study(context.study); !study.model_generator.empty()) {
       read.generated = study;
       read.refined = load_study_model(context, config.variant);
     }

@@ -269,8 +269,7 @@ Inputs random_inputs(const ReliabilityConfig& config, double structural_damping,
     inputs.push_back(scattered(reliability::kCorrosion, 1.0, config.corrosion_variation, "assumed", "corrosion_variation"));
   std::vector<int> parameters;
   for (const StatedInput& own : config.random) {
-    const auto at = std::ranges::find(inputs, own.name, &reliability::RandomInput::name);
-    if (at != inputs.end())
+    if (const auto at = std::ranges::find(inputs, own.name, &reliability::RandomInput::name); at != inputs.end())
       *at = stated(own);
     else
       inputs.insert(inputs.begin() + std::ssize(posterior.inputs), stated(own));

@@ -106,8 +106,7 @@ std::vector<std::size_t> largest_rows(const Structure& s, const std::vector<reli
     std::size_t largest = 0;
     double best = -1.0;
     for (std::size_t i = 0; i < count; ++i) {
-      const double here = mean[row_of(i)].variance * weight(i);
-      if (here > best) {
+      if (const double here = mean[row_of(i)].variance * weight(i); here > best) {
         best = here;
         largest = row_of(i);
       }

@@ -136,11 +136,10 @@ void write_blind_test(const SensorsConfig& config, const sensors::BlindTestResul
                100.0 * (mode.frequency_Hz / frequency_Hz[m] - 1.0), 100.0 * mode.damping_ratio - zeta, mac(at),
                mode.members.size()});
     }
-    for (std::size_t k = 0; k < test.modes.size(); ++k) {
-      if (taken[k]) continue;
-      csv.row({test.setup, "spurious", "", "", 0, test.modes[k].frequency_Hz, 100.0 * test.modes[k].damping_ratio, "", "", "",
-               test.modes[k].members.size()});
-    }
+    for (std::size_t k = 0; k < test.modes.size(); ++k)
+      if (!taken[k])
+        csv.row({test.setup, "spurious", "", "", 0, test.modes[k].frequency_Hz, 100.0 * test.modes[k].damping_ratio, "", "", "",
+                 test.modes[k].members.size()});
     for (const identification::DiagramPole& p : test.diagram)
       poles.row({test.setup, static_cast<long>(p.pole.order / 1000 + 1), static_cast<long>(p.pole.order % 1000),
                  p.pole.frequency_Hz, 100.0 * p.pole.damping_ratio, p.stable_frequency ? 1 : 0, p.stable_damping ? 1 : 0,
@@ -210,8 +209,7 @@ runner::Computation read_sensors(runner::StepContext& context, const SensorsConf
   if (model == nullptr)
     throw InputError({read.model.source, 0, ""}, "is a matrix model, whose points have no place",
                      "give a model of finite elements");
-  std::vector<Eigen::Vector3d> places = each_of(read.points, &sensors::LayoutPoint::x_m);
-  read.nodes = sensors::nodes_at(*model, places, config.tolerance_m);
+  read.nodes = sensors::nodes_at(*model, each_of(read.points, &sensors::LayoutPoint::x_m), config.tolerance_m);
   return [&context, &config, read = std::move(read)] { return run_sensors(context, config, read); };
 }
 

@@ -20,6 +20,7 @@
 #include "buffeting/time_checks.hpp"
 #include "core/angle.hpp"
 #include "core/error.hpp"
+#include "core/lists.hpp"
 #include "dynamics/loaded_model.hpp"
 #include "fe/model.hpp"
 #include "io/csv.hpp"
@@ -202,10 +203,9 @@ std::set<std::string> vertical_channels(runner::StepContext& context, const reco
   const std::vector<std::string> points = buffeting::accelerometers(model);
   std::set<std::string> vertical;
   for (const records::CampaignChannel& channel : campaign.channels) {
-    if (std::ranges::find(points, channel.name) == points.end()) continue;
+    if (!contains(points, channel.name)) continue;
     const Eigen::Vector3d& x_m = model.nodes[static_cast<std::size_t>(model.monitoring_points.at(channel.name))].x_m;
-    const std::string other = records::other_than_vertical_acceleration(channel, x_m, tolerance_m);
-    if (other.empty())
+    if (const std::string other = records::other_than_vertical_acceleration(channel, x_m, tolerance_m); other.empty())
       vertical.insert(channel.name);
     else
       context.warn(fmt::format("channel {} is not the vertical acceleration at the point {}: {}; it is left out", channel.name,
@@ -330,8 +330,7 @@ Status run_validation(const ValidationConfig& config, const ValidationInputs& re
   for (const buffeting::WindEvent& event : config.events) {
     buffeting::SimulatedEvent simulated = buffeting::simulate_event(bridge, set, config, event, context.seed, context);
     for (std::size_t i = 0; i < simulated.runs.size(); ++i) {
-      const Status& status = simulated.runs[i].status;
-      if (!status.converged)
+      if (const Status& status = simulated.runs[i].status; !status.converged)
         unstable.push_back(status.message);
       else if (!stable)
         stable = {event, config.runs[i]};

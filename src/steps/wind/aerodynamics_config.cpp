@@ -2,9 +2,8 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-
 #include "core/error.hpp"
+#include "core/lists.hpp"
 #include "io/limits.hpp"
 #include "steps/shared/config_parts.hpp"
 
@@ -20,12 +19,11 @@ std::vector<std::string> all_models() {
 /// Each zone of the hybrid deployment lies on a deck.
 std::optional<io::FieldTable::Broken> zone_without_a_deck(const AerodynamicsConfig& config) {
   const std::vector<std::string> known = config.deck_names();
-  for (const aero::HybridZone& zone : config.hybrid) {
-    if (std::ranges::find(known, zone.deck) != known.end()) continue;
-    return io::FieldTable::Broken{"hybrid.deck",
-                                  fmt::format("'{}' is no [[deck]]{}", zone.deck, did_you_mean(zone.deck, known)),
-                                  known.empty() ? "add its [[deck]]" : fmt::format("choose one of {}", fmt::join(known, ", "))};
-  }
+  for (const aero::HybridZone& zone : config.hybrid)
+    if (!contains(known, zone.deck))
+      return io::FieldTable::Broken{
+          "hybrid.deck", fmt::format("'{}' is no [[deck]]{}", zone.deck, did_you_mean(zone.deck, known)),
+          known.empty() ? "add its [[deck]]" : fmt::format("choose one of {}", fmt::join(known, ", "))};
   return std::nullopt;
 }
 

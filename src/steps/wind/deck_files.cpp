@@ -14,6 +14,7 @@
 #include "aero/files/turbulence_files.hpp"
 #include "aero/laws.hpp"
 #include "core/error.hpp"
+#include "core/lists.hpp"
 #include "io/csv.hpp"
 
 namespace twindeck::steps {
@@ -30,8 +31,7 @@ std::map<std::string, std::string> exceptions_of(const aero::DeckWind& deck) {
     const Place place{"", 0, "deck " + deck.name + ": exceptions"};
     const std::size_t colon = entry.find(": ");
     const std::string law = entry.substr(0, colon), reason = colon == std::string::npos ? "" : entry.substr(colon + 2);
-    const std::vector<std::string>& known = aero::law_names();
-    if (std::ranges::find(known, law) == known.end())
+    if (const std::vector<std::string>& known = aero::law_names(); !contains(known, law))
       throw InputError(place, "names the law '" + law + "'" + did_you_mean(law, known), "laws are listed in aero/laws.hpp");
     std::istringstream words(reason);
     if (std::distance(std::istream_iterator<std::string>(words), {}) < least_words)
@@ -63,8 +63,7 @@ std::vector<aero::DeckAerodynamics> read_deck_aerodynamics(const aero::WindSetti
   std::vector<aero::DeckAerodynamics> data;
   for (const aero::DeckWind& deck : config.decks) {
     data.push_back({aero::read_polar(context.input(deck.polar)), nullptr});
-    const bool asked = std::ranges::find(config.sets, "standin") != config.sets.end();
-    if (deck.flutter.empty() && asked)
+    if (deck.flutter.empty() && contains(config.sets, "standin"))
       throw InputError({"", 0, "deck " + deck.name}, "has no file of flutter derivatives, which the set standin is made of",
                        "give its flutter, or write sets = [\"quasi_steady\"] in step 7 and set = \"quasi_steady\" in step 8");
     if (!deck.flutter.empty())
