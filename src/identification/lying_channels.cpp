@@ -112,6 +112,15 @@ bool is_tone(const Eigen::Ref<const Eigen::VectorXd>& x) {
   return yy - xy * xy / xx <= other * yy;
 }
 
+/// Whether every sample is one step on from the last: a number of the row, which loggers write beside its time.
+bool counts_rows(const Eigen::Ref<const Eigen::VectorXd>& x) {
+  constexpr double rounding = 1e-6;  // [-] of a step
+  const double step = x.size() > 2 ? x[1] - x[0] : 0.0;
+  for (Index t = 1; t < x.size(); ++t)
+    if (!(std::abs(x[t] - x[t - 1] - step) <= rounding * std::abs(step))) return false;
+  return step != 0.0;
+}
+
 double median_rms(const JudgedChannels& judged, const std::vector<ChannelQuality>& quality) {
   std::vector<double> rms;
   for (const Index c : judged.columns) rms.push_back(quality[static_cast<std::size_t>(c)].rms);
@@ -131,6 +140,8 @@ void judge_motion(const Samples& raw, const JudgedChannels& judged, std::vector<
     ChannelQuality& q = quality[static_cast<std::size_t>(judged.columns[k])];
     if (q.dead) {
       q.left_out = fmt::format("is constant ({}) over {} samples", q.mean, q.samples);
+    } else if (counts_rows(raw.col(judged.columns[k]))) {
+      q.left_out = "counts its rows: each sample is one step on from the last";
     } else if (q.rms < kUnresolved * usual) {
       q.left_out = fmt::format("does not move: its RMS is {:.3g} beside {:.3g} of the others", q.rms, usual);
     } else if (stuck(runs[k]) && !(judged.may_rest && most)) {

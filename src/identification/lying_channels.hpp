@@ -22,6 +22,7 @@ struct JudgedChannels {
 
 /// Channels that cannot be what they say, each with its reason in ChannelQuality::left_out:
 ///   dead   constant, or without motion: its RMS is below kUnresolved of the channels' median
+///   count  each sample one step on from the last: the number of its row
 ///   stuck  one value for over 5 % of the record, or 1 % and far above other runs (where all may rest: while most others move)
 ///   copy   sample by sample the recorded values of another channel, times a factor plus an offset too, within what is
 ///          resolved, which two sensors never give; a reference is the original. Of a free decay, a sine, and where

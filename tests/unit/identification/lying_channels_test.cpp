@@ -1,5 +1,5 @@
 // Oracle: channels made from another by a known factor and offset, at the resolution of a converter or of a printed number; and
-// sensors side by side, which are no copies.
+// sensors side by side, which are no copies; rows counted.
 #include "identification/lying_channels.hpp"
 
 #include <fmt/format.h>
@@ -41,6 +41,13 @@ TEST(LyingChannel, ACopyTimesAFactorPlusAnOffset) {
     EXPECT_NE(reason(a, rounded(0.37 * a.array() - 20.0, step)).find("is a copy of A"), std::string::npos) << step;
   const VectorXd single = (0.0123 * sensor_noise(1)).cast<float>().cast<double>();
   EXPECT_NE(reason(single, (7.0 * single).cast<float>().cast<double>()).find("B = 7 A"), std::string::npos);
+}
+
+TEST(LyingChannel, TheNumberOfTheRow) {
+  const VectorXd a = sensor_noise(1), rows = VectorXd::LinSpaced(4000, 17.0, 17.0 + 3999.0);
+  EXPECT_EQ(reason(a, rows), "counts its rows: each sample is one step on from the last");
+  EXPECT_EQ(reason(a, rows, false, 9.81), "counts its rows: each sample is one step on from the last");
+  EXPECT_EQ(reason(a, rows + 1e-3 * sensor_noise(2)), "");  // a sensor that drifts
 }
 
 TEST(LyingChannel, SensorsSideBySideAreNoCopies) {
