@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <numbers>
 
 namespace twindeck::aero {
 namespace {
@@ -87,9 +86,6 @@ std::optional<ComplexMode> advance(const AeroelasticSystem& system, const Comple
 }
 
 }  // namespace
-
-double ComplexMode::frequency_Hz() const { return lambda.imag() / (2.0 * std::numbers::pi); }
-double ComplexMode::damping_ratio() const { return -lambda.real() / std::abs(lambda); }
 
 std::vector<ComplexMode> still_air_modes(const ReducedStructure& structure) {
   const Eigen::Index m = structure.size();

@@ -3,6 +3,7 @@
 #include <Eigen/Core>
 #include <complex>
 #include <limits>
+#include <numbers>
 #include <optional>
 #include <string>
 #include <vector>
@@ -15,9 +16,11 @@ namespace twindeck::aero {
 /// A free vibration q = Re(vector e^(λt)).
 struct ComplexMode {
   std::complex<double> lambda;
-  Eigen::VectorXcd vector;                     ///< (m) of unit length
-  [[nodiscard]] double frequency_Hz() const;   ///< Im λ/2π: of the oscillation itself
-  [[nodiscard]] double damping_ratio() const;  ///< -Re λ/|λ|, negative when it grows
+  Eigen::VectorXcd vector;  ///< (m) of unit length
+  /// Of the oscillation itself.
+  [[nodiscard]] double frequency_Hz() const { return lambda.imag() / (2.0 * std::numbers::pi); }
+  /// Negative when it grows.
+  [[nodiscard]] double damping_ratio() const { return -lambda.real() / std::abs(lambda); }
 };
 
 /// Oscillating modes without wind, by |λ|, from the full state-space matrix (dashpots and Maxwell units included).

@@ -50,8 +50,6 @@ void InpWriter::heading() {
     supports_ += fmt::format("*NSET, NSET={}\n{}\n", set_name(name), node_id(node));
 }
 
-long InpWriter::node_id(int node) const { return model_.nodes[fe::slot(node)].id; }
-
 long InpWriter::add_node(const Eigen::Vector3d& x) {
   nodes_ += fmt::format("{}, {}, {}, {}\n", ++last_node_, format_number(x.x()), format_number(x.y()), format_number(x.z()));
   return last_node_;

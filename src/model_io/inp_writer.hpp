@@ -41,7 +41,7 @@ class InpWriter {
   std::string beam_material(const std::string& wish, const ExpandedBeam& beam);
   std::string named_material(const std::string& wish, const std::string& data);
   long add_node(const Eigen::Vector3d& x);
-  long node_id(int node) const;
+  long node_id(int node) const { return model_.nodes[fe::slot(node)].id; }
   long next_element() { return ++last_element_; }
   void rigid_equations(long master, const Eigen::Vector3d& master_x, long slave, const Eigen::Vector3d& slave_x,
                        bool rotations);

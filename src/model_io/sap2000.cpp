@@ -26,17 +26,27 @@ struct SapRow : DeckFields {
 
   [[nodiscard]] bool has(const std::string& key) const { return position(key) < keys.size(); }
   /// Value of a key, or `fallback`.
-  [[nodiscard]] std::string get(const std::string& key, const std::string& fallback = "") const;
+  [[nodiscard]] std::string get(const std::string& key, const std::string& fallback = "") const {
+    return has(key) ? fields[position(key)] : fallback;
+  }
   /// Value of a key that must be there.
-  [[nodiscard]] std::string required(const std::string& key) const;
-  [[nodiscard]] double number_of(const std::string& key) const;
-  [[nodiscard]] double number_of(const std::string& key, double fallback) const;
-  [[nodiscard]] bool yes(const std::string& key) const;
+  [[nodiscard]] std::string required(const std::string& key) const {
+    if (blank(position(key))) fail("has no " + key, "complete the row");
+    return fields[position(key)];
+  }
+  [[nodiscard]] double number_of(const std::string& key) const {
+    (void)required(key);
+    return number(position(key));
+  }
+  [[nodiscard]] double number_of(const std::string& key, double fallback) const { return number_or(position(key), fallback); }
+  [[nodiscard]] bool yes(const std::string& key) const { return word(position(key)) == "YES"; }
   /// Whether an assignment says what holds without it: factors of 1 (keys ...Mod, f11 ... v23), offsets of 0, the centroid.
   [[nodiscard]] bool is_neutral() const;
 
  private:
-  [[nodiscard]] std::size_t position(const std::string& key) const;
+  [[nodiscard]] std::size_t position(const std::string& key) const {
+    return static_cast<std::size_t>(std::ranges::find(keys, upper_case(key)) - keys.begin());
+  }
 };
 
 /// The rules of the format: `TABLE:  "NAME"` opens a table, each line is a row, a line that ends with ` _` goes on in the next.
@@ -46,7 +56,11 @@ class SapTables {
   explicit SapTables(const std::filesystem::path& file);
 
   /// Rows of a table; none for one that the file does not have.
-  [[nodiscard]] const std::vector<SapRow>& rows(const std::string& table) const;
+  [[nodiscard]] const std::vector<SapRow>& rows(const std::string& table) const {
+    static const std::vector<SapRow> none;
+    const auto found = tables_.find(table);
+    return found == tables_.end() ? none : found->second;
+  }
   [[nodiscard]] const std::map<std::string, std::vector<SapRow>>& all() const { return tables_; }
   [[nodiscard]] DeckPlace whole(const std::string& table) const { return {&files_.front(), 0, table}; }
 
@@ -68,28 +82,6 @@ void add_cells(const std::string& line, SapRow& row) {
     at = end + (quoted ? 1 : 0);
   }
 }
-
-std::size_t SapRow::position(const std::string& key) const {
-  return static_cast<std::size_t>(std::ranges::find(keys, upper_case(key)) - keys.begin());
-}
-
-std::string SapRow::get(const std::string& key, const std::string& fallback) const {
-  return has(key) ? fields[position(key)] : fallback;
-}
-
-std::string SapRow::required(const std::string& key) const {
-  if (blank(position(key))) fail("has no " + key, "complete the row");
-  return fields[position(key)];
-}
-
-double SapRow::number_of(const std::string& key) const {
-  (void)required(key);
-  return number(position(key));
-}
-
-double SapRow::number_of(const std::string& key, double fallback) const { return number_or(position(key), fallback); }
-
-bool SapRow::yes(const std::string& key) const { return word(position(key)) == "YES"; }
 
 bool SapRow::is_neutral() const {
   const bool factors = label.ends_with(" MODIFIERS"),
@@ -127,12 +119,6 @@ SapTables::SapTables(const std::filesystem::path& file) {
     if (goes_on) line.pop_back();
     add_cells(line, open->back());
   }
-}
-
-const std::vector<SapRow>& SapTables::rows(const std::string& table) const {
-  static const std::vector<SapRow> none;
-  const auto found = tables_.find(table);
-  return found == tables_.end() ? none : found->second;
 }
 
 const std::array<std::string, 6> joint_directions = {"U1", "U2", "U3", "R1", "R2", "R3"};
