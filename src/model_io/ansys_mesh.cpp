@@ -142,7 +142,7 @@ void read_numbered_element(Parts& parts, const Command& command) {
   const long id = command.integer(0);
   if (id < 1) command.fail(fmt::format("{} is no element number", id), "give 1 or more");
   Command rest = command;
-  rest.fields.erase(rest.fields.begin());
+  rest.drop(1);
   Element element = parts.active;
   element.line = command.line;
   append_nodes(rest, element);
@@ -189,7 +189,7 @@ void generate_nodes(Parts& parts, const Command& command) {
   refuse_ratio(command, 8);
   const long times = copies_of(command, 0), increment = command.integer(1);
   Command range = command;
-  range.fields.erase(range.fields.begin(), range.fields.begin() + 2);
+  range.drop(2);
   if (range.fields.size() > 3) range.fields.resize(3);
   const Eigen::Vector3d shift = command.vector(5);
   for (const long id : parts.nodes_of(range, 0, 1)) {

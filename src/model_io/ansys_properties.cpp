@@ -74,6 +74,7 @@ void read_more_reals(Parts& parts, const Command& command) {
   if (found == parts.reals.end()) command.fail("stands before any R", "give R,number,constants before it");
   Command shifted = command;  // R has the number of the set in front of its constants
   shifted.fields.insert(shifted.fields.begin(), "");
+  shifted.taken = -1;
   set_reals(shifted, found->second, parts.real_filled + 1);
   parts.real_filled += a_line;
 }
@@ -84,7 +85,7 @@ void read_changed_reals(Parts& parts, const Command& command) {
   if (found == parts.reals.end() || first < 1 || first > most_reals)
     command.fail("changes no constant of a set that is there", "write RMODIF,set,place,values");
   Command shifted = command;
-  shifted.fields.erase(shifted.fields.begin());
+  shifted.drop(1);
   set_reals(shifted, found->second, static_cast<std::size_t>(first));
 }
 

@@ -199,6 +199,7 @@ std::size_t DeckFields::size() const {
 
 std::string DeckFields::place_of_field(std::size_t i) const {
   const DeckDialect& counts = dialect == nullptr ? counted_from_one : *dialect;
+  i += static_cast<std::size_t>(taken);
   if (counts.fields_a_line == 0 || i < counts.fields_a_line) return fmt::format("field {}", i + counts.first_field);
   return fmt::format("field {} of its line {}", i % counts.fields_a_line + counts.first_field, i / counts.fields_a_line + 1);
 }

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <algorithm>
 #include <filesystem>
 #include <initializer_list>
 #include <map>
@@ -62,12 +63,18 @@ struct DeckFields : DeckPlace {
   std::vector<std::string> fields;
   const DeckDialect* dialect = nullptr;                       ///< null: counted from 1
   const std::map<std::string, double>* parameters = nullptr;  ///< values of names, in upper case; null: fields hold no names
+  std::ptrdiff_t taken = 0;                                   ///< fields that were before these: messages count them
 
   /// Field `i` (from 0), "" where it is missing.
   [[nodiscard]] std::string text(std::size_t i) const { return i < fields.size() ? fields[i] : ""; }
   /// The same in upper case.
   [[nodiscard]] std::string word(std::size_t i) const { return upper_case(text(i)); }
   [[nodiscard]] bool blank(std::size_t i) const { return i >= fields.size() || fields[i].empty(); }
+  /// Takes the first fields away.
+  void drop(std::size_t count) {
+    fields.erase(fields.begin(), fields.begin() + static_cast<std::ptrdiff_t>(std::min(count, fields.size())));
+    taken += static_cast<std::ptrdiff_t>(count);
+  }
   /// Number of fields up to the last one that is not blank.
   [[nodiscard]] std::size_t size() const;
 

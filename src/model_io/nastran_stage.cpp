@@ -99,7 +99,7 @@ class StageReader {
     stage_.load_line(card, card.integer(1), [&](const fe::Element& e) {
       const double length = (parts_.place(e.nodes[1]) - parts_.place(e.nodes[0])).norm(), per = scale == "LE" ? length : 1.0;
       const double x1 = card.number_or(4, 0.0) / per, p1 = factor * card.number(5);
-      const double x2 = card.number_or(6, x1 * per) / per, p2 = factor * card.number_or(7, p1 / factor);
+      const double x2 = card.number_or(6, x1 * per) / per, p2 = factor * card.number_or(7, card.number(5));
       Eigen::Vector3d direction = Eigen::Vector3d::Unit(type[1] - 'X');
       if (local) direction = member_axes(parts_.model, e).row(type[1] - 'X').transpose();
       LineLoad load{p1 * direction, p2 * direction, x1, x2};
@@ -123,9 +123,9 @@ class StageReader {
   void read_pressure(const Card& card, double factor) {
     const bool four = card.name == "PLOAD4";
     const std::size_t first = four ? 1 : 2, thru = four ? 6 : 3;
-    const double p = factor * card.number(four ? 2 : 1);
+    const double stated = card.number(four ? 2 : 1), p = factor * stated;
     for (std::size_t i = 3; four && i < 6; ++i)
-      if (card.number_or(i, p / factor) != p / factor)
+      if (card.number_or(i, stated) != stated)
         card.fail("has a pressure that varies over its face, which is not read", "give P1 alone");
     for (std::size_t i = 8; four && i < card.size(); ++i)
       if (!card.blank(i) && card.text(i) != "0")

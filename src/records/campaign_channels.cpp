@@ -20,9 +20,6 @@ namespace {
 
 /// Direction cosines may be this far from length 1, as in the other tables of channels: rounding, no scale.
 constexpr double kLengthTolerance = 0.02;
-/// A sensor's own calibration may move its gain by this factor either way. Two units of one quantity lie a factor of 9.8 apart
-/// or more; this is less than the root of that, so that no gain fits both.
-constexpr double kLargestCalibration = 3.1;
 
 std::string one_of(const io::CsvTable& table, std::size_t row, const std::string& column,
                    const std::vector<std::string>& allowed) {

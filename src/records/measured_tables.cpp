@@ -88,7 +88,6 @@ void check_word(const io::CsvTable& table, std::size_t row, const std::string& c
 
 /// Columns that features carry along from their campaign. They scale nothing here, but must not contradict each other.
 void check_origin(const io::CsvTable& table, std::size_t row) {
-  constexpr double largest_calibration = 2.0;  // [-] as in a campaign: units of one quantity lie a factor of 9.8 and more apart
   check_word(table, row, "quantity", {"acceleration", "velocity", "displacement", "force", "rotation", "strain"});
   check_word(table, row, "role", {"response", "input"});
   check_word(table, row, "reference", {"0", "1"});
@@ -101,7 +100,7 @@ void check_origin(const io::CsvTable& table, std::size_t row) {
   if (!known)
     table.fail(row, "unit", fmt::format("is '{}', which is no unit of a record", unit), "leave it empty if it is not known");
   const double ratio = known->si_factor > 0.0 ? std::abs(gain) / known->si_factor : 1.0;
-  if (ratio > largest_calibration || ratio < 1.0 / largest_calibration)
+  if (ratio > kLargestCalibration || ratio < 1.0 / kLargestCalibration)
     table.fail(row, "gain",
                fmt::format("is {:.6g}, but the unit is '{}', which takes {:.6g} to SI units", gain, unit, known->si_factor),
                "correct the gain or the unit");

@@ -188,5 +188,11 @@ TEST(FormDiagnosis, ALightOscillatorOnASoundGirderIsNotNamed) {
   EXPECT_FALSE(score.reported) << score.found;
 }
 
+// A fixed bearing below the axis gives a mode more than the model has: an oscillator explained it in both tests.
+TEST(FormDiagnosis, AModeThatTheModelLacksIsNoOscillator) {
+  const FormScore score = diagnosed(890036);
+  EXPECT_FALSE(score.reported) << score.found;
+}
+
 }  // namespace
 }  // namespace twindeck::blind::form
