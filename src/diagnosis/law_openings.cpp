@@ -28,8 +28,9 @@ struct Opening {
 /// A mode that may be none of the model's. Within a state one name is one mode: it is the model's in all conditions or in none,
 /// and no hypothesis may say that it is another at a large amplitude.
 struct OpenMode {
-  std::vector<int> modes;  ///< measured ones
-  std::vector<int> rows;   ///< among the training rows
+  std::vector<int> modes;        ///< measured ones
+  std::vector<int> rows;         ///< among the training rows
+  std::vector<double> spurious;  ///< variance of each row if the mode is spurious
   bool is_open = false;
   Opening now;  ///< as the system holds it
   std::vector<Opening> openings;
@@ -55,11 +56,11 @@ MatrixXd forced_shapes(const FeatureMap& map, const FitSystem& system, std::size
   return out;
 }
 
-/// Errors of a mode that the model lacks: real parts are one shape that the structure is forced into, times the size and the
-/// sign of each record, and ln f is one number. Besides, each record has a little of its own; damping and imaginary parts are
-/// as open as those of a spurious mode. @param spurious  (n_rows of the mode) variance of such a one
-MatrixXd of_a_lacking_mode(const FeatureMap& map, const FitSystem& system, const OpenMode& open,
-                           const std::vector<int>& training, const VectorXd& spurious) {
+/// Covariance of the rows of a mode that the model lacks: real parts are one shape that the structure is forced into, times the
+/// size and the sign of each record, and ln f is one number. Besides, each record has a little of its own; damping and
+/// imaginary parts are as open as those of a spurious mode.
+MatrixXd of_a_missing_mode(const FeatureMap& map, const FitSystem& system, const OpenMode& open,
+                           const std::vector<int>& training) {
   const MatrixXd shapes = forced_shapes(map, system, static_cast<std::size_t>(open.modes.front()));
   VectorXd reference = VectorXd::Zero(shapes.rows()), own = VectorXd::Ones(map.values().size());
   MatrixXd columns = MatrixXd::Zero(map.values().size(), shapes.cols() + 1);
@@ -78,7 +79,7 @@ MatrixXd of_a_lacking_mode(const FeatureMap& map, const FitSystem& system, const
   std::vector<int> rows;
   for (const int at : open.rows) rows.push_back(training[static_cast<std::size_t>(at)]);
   MatrixXd out = linalg::square(MatrixXd(columns(rows, Eigen::all)));
-  out.diagonal() += own(rows).cwiseProduct(spurious);
+  out.diagonal() += own(rows).cwiseProduct(Eigen::Map<const VectorXd>(open.spurious.data(), std::ssize(open.spurious)));
   return out;
 }
 
@@ -90,34 +91,33 @@ std::vector<OpenMode> modes_that_may_open(const Inference& plain, const FitSyste
     const MeasuredMode& mode = map.measured_modes()[m];
     if (mode.real_rows.size() < 2) continue;  // no shape tells it from others
     const VectorXd variance = variance_of_open(map, mode);
-    std::vector<int> rows;
+    OpenMode here;
     bool is_aside = true;  // all its rows are; free scales make some rows of any shape as wide
     for (std::size_t at = 0; at < plain.training().size(); ++at) {
       const double open = variance[plain.training()[at]];
       if (open <= 0.0) continue;
-      rows.push_back(static_cast<int>(at));
+      here.rows.push_back(static_cast<int>(at));
+      here.spurious.push_back(open);
       is_aside = is_aside && sigma[static_cast<Index>(at)] > open;
     }
     const bool is_open = system.unpaired[m];
-    if (rows.empty() || (is_aside && !is_open)) continue;
+    if (here.rows.empty() || (is_aside && !is_open)) continue;
     OpenMode& open = by_name[{map.features().conditions[static_cast<std::size_t>(mode.condition)].state, mode.label, is_open}];
     open.is_open = is_open;
     open.modes.push_back(static_cast<int>(m));
-    open.rows.insert(open.rows.end(), rows.begin(), rows.end());
+    open.rows.insert(open.rows.end(), here.rows.begin(), here.rows.end());
+    open.spurious.insert(open.spurious.end(), here.spurious.begin(), here.spurious.end());
   }
-  // Where conditions differ by more than chance, a shape that changes is for causes to explain.
-  const bool may_lack =
+  // Where conditions differ in a state or along a contrast, a shape that changes is for causes to explain.
+  const bool may_be_missing =
       states_of(map.features()).size() == 1 && contrasts_of(map.features()).empty() && !system.modes.structures.empty();
   std::vector<OpenMode> out;
   for (auto& [name, open] : by_name) {
-    VectorXd spurious(std::ssize(open.rows)), all = VectorXd::Zero(map.values().size());
-    for (const int m : open.modes) all += variance_of_open(map, map.measured_modes()[static_cast<std::size_t>(m)]);
-    for (Index k = 0; k < spurious.size(); ++k)
-      spurious[k] = all[plain.training()[static_cast<std::size_t>(open.rows[static_cast<std::size_t>(k)])]];
-    open.openings = {{spurious.asDiagonal(), static_cast<double>(open.modes.size()) * log_prior_of_open()}};
-    open.now = open.is_open ? open.openings.front() : Opening{MatrixXd::Zero(spurious.size(), spurious.size())};
-    if (may_lack)
-      open.openings.push_back({of_a_lacking_mode(map, system, open, plain.training(), spurious), log_prior_of_open()});
+    const auto n = std::ssize(open.rows);
+    open.openings = {{Eigen::Map<const VectorXd>(open.spurious.data(), n).asDiagonal(),
+                      static_cast<double>(open.modes.size()) * log_prior_of_open()}};
+    open.now = open.is_open ? open.openings.front() : Opening{MatrixXd::Zero(n, n)};
+    if (may_be_missing) open.openings.push_back({of_a_missing_mode(map, system, open, plain.training()), log_prior_of_open()});
     out.push_back(std::move(open));
   }
   return out;

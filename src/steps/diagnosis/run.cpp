@@ -273,10 +273,11 @@ DiagnosisInputs prepare_diagnosis(const DiagnosisConfig& config, const Diagnosis
     place_options.max_nodes = static_cast<int>(config.nodes);
   else
     place_options.node_spacing_m = basis.eighth_of_wave_m;
-  if (const double spacing = std::max(place_options.zone_spacing_m, place_options.node_spacing_m); spacing > 0.0)
-    context.say(fmt::format("places every {:.2g} m, an eighth of the shortest wave of the measured modes", spacing));
   inputs.basis_modes = basis.modes;
   reduce(place_options, basis, inputs);
+  if (basis.eighth_of_wave_m > 0.0)
+    context.say(fmt::format("looks at {} zones and {} nodes; an eighth of the shortest wave of the measured modes is {:.2g} m",
+                            inputs.places.sets["elements"].size(), inputs.places.sets["nodes"].size(), basis.eighth_of_wave_m));
   diagnosis::refuse_slack_stays(inputs.features, inputs.places, files.folder);
   inputs.extended = inputs.model;
   if (config.stays == "auto") swing_stays(config, files.stay_rows, inputs);
