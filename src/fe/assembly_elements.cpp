@@ -40,6 +40,11 @@ SolidProperties solid_properties(const Model& model, const Element& element) {
   return {m.youngs_modulus_Pa, m.poisson_ratio};
 }
 
+Eigen::MatrixXd bending_with(const Model& model, const Element& element, const ShellProperties& properties) {
+  if (is_triangle(element)) return triangle_bending_stiffness(triangle_geometry(model, element), properties);
+  return shell_bending_stiffness(shell_geometry(model, element), properties);
+}
+
 }  // namespace
 
 const Material& material_of(const Model& model, const Element& element) {
@@ -79,7 +84,8 @@ TriangleGeometry triangle_geometry(const Model& model, const Element& element) {
 ShellProperties shell_properties(const Model& model, const Element& element) {
   const Material& m = material_of(model, element);
   const Section& s = section_of(model, element);
-  return {m.youngs_modulus_Pa, m.poisson_ratio, s.thickness_m, s.bending_inertia_ratio};
+  const double shear = model.formulation.shear_flexible ? s.shear_thickness_ratio : 0.0;
+  return {m.youngs_modulus_Pa, m.poisson_ratio, s.thickness_m, s.bending_inertia_ratio, shear};
 }
 
 Eigen::MatrixXd shell_membrane_of(const Model& model, const Element& element, std::uint8_t straight_sides) {
@@ -97,9 +103,15 @@ Eigen::MatrixXd shell_membrane_of(const Model& model, const Element& element, st
 }
 
 Eigen::MatrixXd shell_bending_of(const Model& model, const Element& element) {
-  const ShellProperties properties = shell_properties(model, element);
-  if (is_triangle(element)) return triangle_bending_stiffness(triangle_geometry(model, element), properties);
-  return shell_bending_stiffness(shell_geometry(model, element), properties);
+  return bending_with(model, element, shell_properties(model, element));
+}
+
+Eigen::MatrixXd shell_shear_of(const Model& model, const Element& element) {
+  constexpr double step = 1e-4;  ///< [-] of κ: central differences err by its square
+  ShellProperties more = shell_properties(model, element), less = more;
+  more.shear_thickness_ratio *= 1.0 + step;
+  less.shear_thickness_ratio *= 1.0 - step;
+  return (bending_with(model, element, more) - bending_with(model, element, less)) / (2.0 * step);
 }
 
 SolidGeometry solid_geometry(const Model& model, const Element& element) { return corners_of<SolidGeometry>(model, element); }

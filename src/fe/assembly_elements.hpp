@@ -36,6 +36,7 @@ struct ElementMatrix {
 [[nodiscard]] ShellGeometry shell_geometry(const Model& model, const Element& element);
 /// @pre three nodes
 [[nodiscard]] TriangleGeometry triangle_geometry(const Model& model, const Element& element);
+/// Section and material of a shell. Its shear ratio is zero if the formulation is rigid in shear.
 [[nodiscard]] ShellProperties shell_properties(const Model& model, const Element& element);
 /// Whether a solid has four nodes.
 [[nodiscard]] inline bool is_tetrahedron(const Element& element) {
@@ -57,10 +58,13 @@ struct ElementMatrix {
 [[nodiscard]] Eigen::MatrixXd solid_geometric_stiffness_of(const Model& model, const Element& element,
                                                            const Eigen::VectorXd& displacement);
 /// Membrane part of a shell of three or four nodes, the drilling of the formulation's rule included (spread over the corners
-/// where the rule is diagonal); bending part. Over its six degrees of freedom a node.
+/// where the rule is diagonal); bending part with transverse shear. Over its six degrees of freedom a node.
 /// @param straight_sides  of this element, from sides_beside_four_nodes; used for triangles only
 [[nodiscard]] Eigen::MatrixXd shell_membrane_of(const Model& model, const Element& element, std::uint8_t straight_sides);
 [[nodiscard]] Eigen::MatrixXd shell_bending_of(const Model& model, const Element& element);
+/// What of the bending part goes with the transverse shear stiffness: κ dK/dκ, zero where the shell is rigid in shear. The rest
+/// goes with the stiffness of the curvatures, E t³ · bending_inertia_ratio, because K is homogeneous of degree 1 in both.
+[[nodiscard]] Eigen::MatrixXd shell_shear_of(const Model& model, const Element& element);
 [[nodiscard]] std::array<Eigen::Vector3d, 2> end_nodes(const Model& model, const Element& element);
 
 [[nodiscard]] const Material& material_of(const Model& model, const Element& element);

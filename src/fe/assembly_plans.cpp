@@ -67,6 +67,16 @@ ElementMatrix bending(const Model& model, int i) {
   return {six_per_node(e), shell_bending_of(model, e)};
 }
 
+ElementMatrix transverse_shear(const Model& model, int i) {
+  const Element& e = element_at(model, i);
+  return {six_per_node(e), shell_shear_of(model, e)};
+}
+
+ElementMatrix curvature(const Model& model, int i) {
+  const Element& e = element_at(model, i);
+  return {six_per_node(e), shell_bending_of(model, e) - shell_shear_of(model, e)};
+}
+
 ElementMatrix solid(const Model& model, int i) {
   const Element& e = element_at(model, i);
   return {three_per_node(e), solid_stiffness_of(model, e)};
@@ -127,7 +137,12 @@ std::vector<TermPlan> plan_stiffness(const Model& model) {
       const std::uint8_t sides = straight_sides[slot(i)];
       const std::string beside = sides == 0 ? "" : fmt::format(" beside four-node shells ({})", sides);
       groups.add_element(model, i, section + of + " membrane" + beside, {.modulus = 1, .thickness = 1}, membranes[sides]);
-      groups.add_element(model, i, section + of + " bending", {.modulus = 1, .thickness = 3, .ratio = 1}, bending);
+      // Two terms where a shell is flexible in shear: exact at the model's own values, and to first order about them.
+      const bool shears = shell_properties(model, e).shear_thickness_ratio > 0.0;
+      groups.add_element(model, i, section + of + " bending", {.modulus = 1, .thickness = 3, .ratio = 1},
+                         shears ? curvature : bending);
+      if (shears)
+        groups.add_element(model, i, section + of + " transverse shear", {.modulus = 1, .thickness = 1}, transverse_shear);
     } else if (e.type == ElementType::bar) {
       groups.add_element(model, i, e.group + of + " bars " + section, {.modulus = 1, .area = 1}, bar_axial);
     } else if (is_parameter(model, Target::area, section)) {

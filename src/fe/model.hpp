@@ -38,7 +38,11 @@ struct Section {
   // shells
   double thickness_m = 0.0;
   double bending_inertia_ratio = 1.0;  ///< multiplies t³/12 alone (RMI): not membrane, not mass
+  double shear_thickness_ratio = 0.0;  ///< thickness that carries transverse shear over t: 5/6 of a homogeneous plate
+                                       ///< (Mindlin); 0: rigid in transverse shear (Kirchhoff)
 };
+/// Section::shear_thickness_ratio of a homogeneous plate. Reference: Reissner (1945), J. Appl. Mech. 12, A69-A77.
+inline constexpr double homogeneous_shear_ratio = 5.0 / 6.0;
 
 enum class ElementType { beam, bar, stay, shell, solid };
 
@@ -201,7 +205,7 @@ struct Prestress {
 
 /// Options of the element formulation.
 struct Formulation {
-  bool shear_flexible = true;        ///< false: Euler-Bernoulli, shear areas are ignored
+  bool shear_flexible = true;        ///< false: Euler-Bernoulli and Kirchhoff, shear areas and ratios are ignored
   bool beam_rotary_inertia = true;   ///< false: translational and torsional mass of beams only
   bool shell_rotary_inertia = true;  ///< false: translational mass only
   /// penalty: Hughes-Brezzi; diagonal: factor E t A on each corner, spread so that a rigid rotation meets no resistance

@@ -44,14 +44,28 @@ inline constexpr std::array<double, 4> kEta = {-1.0, -1.0, 1.0, 1.0};
 template <int rows, int columns>
 using Matrix = Eigen::Matrix<double, rows, columns>;
 
-/// Discrete-Kirchhoff rotation of the normal of a plate of n corners, β = (βx, βy), u = z βx, v = z βy: at the corners, where
-/// βx = ry, βy = -rx, then at the middles of the sides 0-1, 1-2, … Columns w rx ry of the corners. At the middle of side i-j
-/// (tangent s, length l) the normal component of β is linear along the side, and the tangential one satisfies Kirchhoff,
-/// β_s = -dw/ds, for the cubic w of the side:  β_s = -3/(2l) (w_j - w_i) - ¼ (β_si + β_sj).
+/// What a plate of n corners does along its sides 0-1, 1-2, … Columns w rx ry of the corners.
 template <std::size_t n>
-[[nodiscard]] auto plate_rotations(const std::array<Eigen::Vector2d, n>& corner_m) {
-  constexpr int columns = 3 * static_cast<int>(n);
+struct PlateSides {
+  static constexpr int columns = 3 * static_cast<int>(n);
+  /// Rotation of the normal, β = (βx, βy), u = z βx, v = z βy: at the corners, where βx = ry, βy = -rx, then in the middles.
   std::array<Matrix<2, columns>, 2 * n> beta;
+  std::array<Matrix<1, columns>, n> shear;  ///< ∫ γ_s ds along the side [m], γ = ∇w + β constant along it
+};
+
+/// Discrete shear constraints. On side i-j (tangent s, length l) the component of β across is linear, the tangential one is
+/// quadratic and γ_s constant; the side's equilibrium of bending, γ_s = (D_b / D_s) d²β_s/ds², and ∫ γ_s ds = w_j - w_i + ∫ β_s
+/// ds give, with φ = shear_length2 / l² and g = (w_j - w_i) / l + ½ (β_si + β_sj),
+///
+///     β_s in the middle = ½ (β_si + β_sj) - 3/2 g / (1 + φ),     γ_s = g φ / (1 + φ).
+///
+/// φ = 0 is the discrete Kirchhoff side. Reference: Katili (1993), IJNME 36, 1859-1883 (DKMT) and 1885-1908 (DKMQ).
+/// @param shear_length2_m2  ShellProperties::shear_length2_m2
+template <std::size_t n>
+[[nodiscard]] PlateSides<n> plate_sides(const std::array<Eigen::Vector2d, n>& corner_m, double shear_length2_m2) {
+  constexpr int columns = PlateSides<n>::columns;
+  PlateSides<n> sides;
+  auto& beta = sides.beta;
   for (std::size_t i = 0; i < n; ++i) {
     const auto w = static_cast<Eigen::Index>(3 * i);
     beta[i].setZero();
@@ -67,9 +81,16 @@ template <std::size_t n>
     Matrix<1, columns> rise = Matrix<1, columns>::Zero();
     rise(static_cast<Eigen::Index>(3 * j)) = 1.0;
     rise(static_cast<Eigen::Index>(3 * i)) = -1.0;
-    beta[n + i] = 0.5 * sum - s * (1.5 / length * rise + 0.75 * s.transpose() * sum);
+    const double square = length * length, both = square + shear_length2_m2;
+    beta[n + i] = 0.5 * sum - square / both * s * (1.5 / length * rise + 0.75 * s.transpose() * sum);  // 1 / (1 + φ)
+    sides.shear[i] = shear_length2_m2 / both * (rise + 0.5 * length * s.transpose() * sum);            // φ / (1 + φ)
   }
-  return beta;
+  return sides;
+}
+
+/// D_s for unit E t³: D_s = 12 D_b / shear_length2; 0 for a plate that is rigid in shear.
+[[nodiscard]] inline double unit_shear(double poisson_ratio, double shear_length2_m2) {
+  return shear_length2_m2 > 0.0 ? 1.0 / ((1.0 - poisson_ratio * poisson_ratio) * shear_length2_m2) : 0.0;
 }
 
 /// Curvatures xx, yy, 2xy where the functions of corners and middles have these gradients.

@@ -101,15 +101,27 @@ Eigen::Matrix<double, 2, 8> serendipity_gradient(double xi, double eta) {
   return n;
 }
 
+/// d/dx, d/dy of w plus β where the shear strain is constant along ξ between sides 0-1 and 2-3, and along η likewise.
+Eigen::Matrix<double, 2, 12> shear_strain(const shell::PlateSides<4>& sides, const shell::Bilinear& at, double xi, double eta) {
+  Eigen::Matrix<double, 2, 12> natural;
+  natural.row(0) = 0.25 * ((1.0 - eta) * sides.shear[0] - (1.0 + eta) * sides.shear[2]);
+  natural.row(1) = 0.25 * ((1.0 + xi) * sides.shear[1] - (1.0 - xi) * sides.shear[3]);
+  return at.inverse * natural;
+}
+
 /// Unit E t³ (12 × 12).
-Eigen::Matrix<double, 12, 12> bending(const shell::Frame& frame, double poisson_ratio) {
-  const auto beta = shell::plate_rotations(frame.corner_m);
+Eigen::Matrix<double, 12, 12> bending(const shell::Frame& frame, double poisson_ratio, double shear_length2_m2) {
+  const auto sides = shell::plate_sides(frame.corner_m, shear_length2_m2);
   const Eigen::Matrix3d d = shell::plane_stress(poisson_ratio) / 12.0;
+  const double shear = shell::unit_shear(poisson_ratio, shear_length2_m2);
   Eigen::Matrix<double, 12, 12> k = Eigen::Matrix<double, 12, 12>::Zero();
   for (const Eigen::Vector2d& point : shell::gauss_2x2()) {
     const shell::Bilinear at = shell::bilinear_at(frame, point.x(), point.y());
     const Eigen::Matrix<double, 2, 8> gradient = at.inverse * serendipity_gradient(point.x(), point.y());
-    k += quadratic_form(at.determinant, shell::curvature_of(beta, gradient), d);
+    k += quadratic_form(at.determinant, shell::curvature_of(sides.beta, gradient), d);
+    if (shear == 0.0) continue;
+    const Eigen::Matrix<double, 2, 12> strain = shear_strain(sides, at, point.x(), point.y());
+    k += shear * at.determinant * strain.transpose() * strain;
   }
   return k;
 }
@@ -157,7 +169,7 @@ Matrix24 shell_geometric_stiffness(const ShellGeometry& geometry, const ShellPro
 
 Matrix24 shell_bending_stiffness(const ShellGeometry& geometry, const ShellProperties& properties) {
   const shell::Frame frame = shell::frame_of(geometry);
-  const Eigen::Matrix<double, 12, 12> plate = bending(frame, properties.poisson_ratio);
+  const Eigen::Matrix<double, 12, 12> plate = bending(frame, properties.poisson_ratio, properties.shear_length2_m2());
   const double t = properties.thickness_m;
   const double scale = properties.youngs_modulus_Pa * t * t * t * properties.bending_inertia_ratio;
   return congruence(shell::corner_displacements(frame), shell::placed(plate, {2, 3, 4}), scale);

@@ -9,13 +9,21 @@
 namespace twindeck::fe {
 
 /// Flat four-node shell: membrane with incompatible modes (QM6; Taylor, Beresford and Wilson 1976), drilling stiffness, and
-/// discrete-Kirchhoff plate bending (DKQ; Batoz and Ben Tahar 1982), which does not lock. Slightly warped quadrilaterals are
-/// projected to their mean plane, with the rigid-body correction for the distance of the nodes from it.
+/// discrete-Mindlin plate bending (DKMQ; Katili 1993, IJNME 36, 1885-1908), which does not lock. Rigid in transverse shear it
+/// is the discrete-Kirchhoff one (DKQ; Batoz and Ben Tahar 1982). Slightly warped quadrilaterals are projected to their mean
+/// plane, with the rigid-body correction for the distance of the nodes from it.
 struct ShellGeometry {
   std::array<Eigen::Vector3d, 4> node_m;
 };
 struct ShellProperties {
   double youngs_modulus_Pa, poisson_ratio, thickness_m, bending_inertia_ratio;
+  double shear_thickness_ratio = 0.0;  ///< κ; 0: rigid in transverse shear
+  /// 12 D_b / D_s [m²], D_b the bending and D_s the transverse shear stiffness of the plate: φ of a side times its length
+  /// squared. 0: rigid in shear.
+  [[nodiscard]] double shear_length2_m2() const {
+    if (shear_thickness_ratio == 0.0) return 0.0;
+    return 2.0 * bending_inertia_ratio * thickness_m * thickness_m / (shear_thickness_ratio * (1.0 - poisson_ratio));
+  }
 };
 using DrillingRule = Formulation::Drilling;
 /// Membrane part, drilling included: linear in E t. penalty: Hughes and Brezzi (1989) with factor gamma/G (default 1 when
@@ -33,7 +41,8 @@ using DrillingRule = Formulation::Drilling;
                                                  DrillingRule drilling, double drilling_factor,
                                                  const Eigen::Ref<const Eigen::VectorXd>& displacement);
 
-/// Bending part, linear in E t³ · bending_inertia_ratio; rx = dw/dy, ry = -dw/dx at the corners.
+/// Bending part with transverse shear, homogeneous of degree 1 in E t³ · bending_inertia_ratio and E t · shear_thickness_ratio.
+/// Rigid in shear it is linear in the first, and rx = dw/dy, ry = -dw/dx at the corners.
 [[nodiscard]] Matrix24 shell_bending_stiffness(const ShellGeometry& geometry, const ShellProperties& properties);
 
 /// Consistent mass of `mass_per_area` [kg/m²]: bilinear translations; `rotary_per_area` [kg] (rho t³/12) on the bending

@@ -63,7 +63,8 @@ Matrix18 triangle_bending_stiffness(const TriangleGeometry& geometry, const Shel
   const TrianglePlane plane = plane_of(geometry);
   const double t = properties.thickness_m;
   const double scale = properties.youngs_modulus_Pa * t * t * t * properties.bending_inertia_ratio;
-  return in_space(plane, scale * triangle::kirchhoff_plate(plane.corner_m, properties.poisson_ratio), {2, 3, 4});
+  const auto flat = triangle::plate_bending(plane.corner_m, properties.poisson_ratio, properties.shear_length2_m2());
+  return in_space(plane, scale * flat, {2, 3, 4});
 }
 
 Matrix18 triangle_geometric_stiffness(const TriangleGeometry& geometry, const ShellProperties& properties,

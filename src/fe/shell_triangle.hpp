@@ -7,8 +7,8 @@ namespace twindeck::fe {
 using Matrix18 = Eigen::Matrix<double, 18, 18>;
 
 /// Flat three-node shell, the triangle beside the four-node shell of elements.hpp: membrane with drilling rotations
-/// (triangle.hpp), discrete-Kirchhoff plate bending, mass on linear shapes. Nodes anticlockwise
-/// seen from the normal x12 × x13. Matrices are in global axes, x y z rx ry rz of node 1, 2, 3, (18 × 18).
+/// (triangle.hpp), discrete-Mindlin plate bending, discrete-Kirchhoff where rigid in shear, mass on linear shapes. Nodes
+/// anticlockwise seen from the normal x12 × x13. Matrices are in global axes, x y z rx ry rz of node 1, 2, 3, (18 × 18).
 struct TriangleGeometry {
   std::array<Eigen::Vector3d, 3> node_m;
   std::uint8_t straight_sides =
@@ -20,7 +20,7 @@ struct TriangleGeometry {
 /// `straight_sides` set the triangle passes the patch test beside four-node shells of either rule.
 /// @throws InputError (all functions here) for a triangle without area
 [[nodiscard]] Matrix18 triangle_membrane_stiffness(const TriangleGeometry& geometry, const ShellProperties& properties);
-/// Bending part, linear in E t³ · bending_inertia_ratio; rx = dw/dy, ry = -dw/dx at the corners.
+/// Bending part with transverse shear, as shell_bending_stiffness.
 [[nodiscard]] Matrix18 triangle_bending_stiffness(const TriangleGeometry& geometry, const ShellProperties& properties);
 /// Geometric stiffness of the triangle's mean membrane forces on linear shapes, as shell_geometric_stiffness.
 /// @param displacement  (18) that strains the element, global axes

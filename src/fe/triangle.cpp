@@ -87,22 +87,26 @@ Eigen::Matrix<double, 3, 9> mean_strain(const Corners& corner_m, std::uint8_t st
   return corner_forces(corner_m, straight_sides).transpose() / area(corner_m);
 }
 
-Matrix9 kirchhoff_plate(const Corners& corner_m, double poisson_ratio) {
-  const auto beta = shell::plate_rotations(corner_m);
+Matrix9 plate_bending(const Corners& corner_m, double poisson_ratio, double shear_length2_m2) {
+  const auto sides = shell::plate_sides(corner_m, shear_length2_m2);
   const Eigen::Matrix<double, 2, 3> g = gradients(corner_m);
   const Eigen::Matrix3d d = shell::plane_stress(poisson_ratio) / 12.0;
+  const double shear = shell::unit_shear(poisson_ratio, shear_length2_m2);
   Matrix9 k = Matrix9::Zero();
-  // Curvatures are linear, so the three middles of the sides, a third of the area each, integrate exactly.
+  // Curvatures and shear strains are linear, so the three middles of the sides, a third of the area each, integrate exactly.
   for (int point = 0; point < 3; ++point) {
     Eigen::Vector3d at = Eigen::Vector3d::Constant(0.5);  // area coordinates
     at[point] = 0.0;
     Eigen::Matrix<double, 2, 6> slope;
+    Eigen::Matrix<double, 2, 9> strain = Eigen::Matrix<double, 2, 9>::Zero();
     for (int i = 0; i < 3; ++i) {
       const int j = (i + 1) % 3;
       slope.col(i) = (4.0 * at[i] - 1.0) * g.col(i);
       slope.col(3 + i) = 4.0 * (at[i] * g.col(j) + at[j] * g.col(i));
+      strain += (at[i] * g.col(j) - at[j] * g.col(i)) * sides.shear[static_cast<std::size_t>(i)];
     }
-    k += quadratic_form(area(corner_m) / 3.0, shell::curvature_of(beta, slope), d);
+    k += quadratic_form(area(corner_m) / 3.0, shell::curvature_of(sides.beta, slope), d);
+    if (shear > 0.0) k += shear * area(corner_m) / 3.0 * strain.transpose() * strain;
   }
   return k;
 }

@@ -52,14 +52,15 @@ using Matrix9 = Eigen::Matrix<double, 9, 9>;
 /// Mean strains xx, yy, 2xy of the triangle from the nine displacements (3 × 9), those of its constant stresses.
 [[nodiscard]] Eigen::Matrix<double, 3, 9> mean_strain(const Corners& corner_m, std::uint8_t straight_sides);
 
-/// Discrete-Kirchhoff plate bending of a triangle (DKT). Rotations of the normal are quadratic in the triangle. At the middle
-/// of each side the part across the side is the mean of the corners' and the part along it is the slope of the side's cubic, so
-/// that shear strains vanish along the sides and a thin plate does not lock. The triangle shares the cubics of its sides with
-/// the four-node plate (DKQ), so that meshes of both fit together.
+/// Plate bending of a triangle (DKMT; DKT where the plate is rigid in shear). Rotations of the normal are quadratic in the
+/// triangle. Shear strains are linear, and tangential ones constant along each side. Its sides are those of the four-node plate
+/// (shell::plate_sides), so that a thin plate does not lock and meshes of both fit together.
 ///
-/// Reference: Batoz, Bathe and Ho (1980), A study of three-node triangular plate bending elements, IJNME 15, 1771-1812.
+/// Reference: Katili (1993), IJNME 36, 1859-1883 (DKMT); Batoz, Bathe and Ho (1980), A study of three-node triangular plate
+/// bending elements, IJNME 15, 1771-1812 (DKT).
 /// @param poisson_ratio  [-]
-/// @return for unit E t³, (9 × 9): w, rx = dw/dy, ry = -dw/dx of corner 1, 2, 3; rank 6
-[[nodiscard]] Matrix9 kirchhoff_plate(const Corners& corner_m, double poisson_ratio);
+/// @param shear_length2_m2  ShellProperties::shear_length2_m2, 0: rigid in shear
+/// @return for unit E t³, (9 × 9): w, rx, ry of corner 1, 2, 3; rank 6
+[[nodiscard]] Matrix9 plate_bending(const Corners& corner_m, double poisson_ratio, double shear_length2_m2 = 0.0);
 
 }  // namespace twindeck::fe::triangle

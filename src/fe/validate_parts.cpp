@@ -124,6 +124,9 @@ void validate_properties(const Model& model) {
              fmt::format("bending inertia ratio is {:g}, but element {} is no shell: only a shell's bending has that factor",
                          s.bending_inertia_ratio, e.id),
              "give 1, or change inertia_y and inertia_z");
+    if (e.type != ElementType::shell && s.shear_thickness_ratio != 0.0)
+      refuse(model, section, fmt::format("has a shear thickness ratio, but element {} is no shell", e.id),
+             "give 0; beams have shear_area_y and shear_area_z");
     switch (e.type) {
       case ElementType::solid:
         break;
@@ -142,6 +145,8 @@ void validate_properties(const Model& model) {
       case ElementType::shell:
         require_positive(model, section, "thickness", s.thickness_m, "m");
         require_positive(model, section, "bending inertia ratio", s.bending_inertia_ratio, "");
+        if (s.shear_thickness_ratio != 0.0)
+          require_positive(model, section, "shear thickness ratio", s.shear_thickness_ratio, "");
         if (!(m.poisson_ratio >= 0.0 && m.poisson_ratio < 0.5))
           refuse(model, material, fmt::format("Poisson's ratio is {:g}, expected a value in [0, 0.5[", m.poisson_ratio),
                  "give 0.2 for concrete, 0.3 for steel");

@@ -55,6 +55,8 @@ TEST(ValidateProperties, Sections) {
   expect_fault("thickness is 0 m", [](Model& m) { m.sections[1].thickness_m = 0.0; });
   expect_fault("bending inertia ratio is 0", [](Model& m) { m.sections[1].bending_inertia_ratio = 0.0; });
   expect_fault("section 'girder': bending inertia ratio is 2", [](Model& m) { m.sections[0].bending_inertia_ratio = 2.0; });
+  expect_fault("shear thickness ratio is -1", [](Model& m) { m.sections[1].shear_thickness_ratio = -1.0; });
+  expect_fault("'girder': has a shear thickness ratio", [](Model& m) { m.sections[0].shear_thickness_ratio = 0.5; });
   expect_fault("section 'strand': area is 0", [](Model& m) { m.sections[2].area_m2 = 0.0; });
 }
 
