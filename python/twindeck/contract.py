@@ -23,7 +23,7 @@ MODEL = {
                         texts="type material section name group section2", key="element", may_be_empty="section"),
     "materials": Columns("material youngs_modulus_Pa density_kg_m3", "shear_modulus_Pa poisson_ratio", texts="material", key="material"),
     "sections": Columns("section", "area_m2 inertia_y_m4 inertia_z_m4 inertia_yz_m4 torsion_m4 shear_area_y_m2 shear_area_z_m2 thickness_m "
-                        "bending_inertia_ratio", texts="section", key="section"),
+                        "bending_inertia_ratio shear_thickness_ratio", texts="section", key="section"),
     "supports": Columns("node x y z rx ry rz", "support", texts="support"),
     "springs": Columns("spring node direction_x direction_y direction_z stiffness_N_m",
                        "group node2 quantity damping_N_s_m friction_N arrangement active", texts="spring group quantity arrangement", key="spring"),

@@ -265,9 +265,10 @@ void read_materials(const std::filesystem::path& folder, fe::Model& model, NameI
 }
 
 void read_sections(const std::filesystem::path& folder, fe::Model& model, NameIndex& index) {
-  const auto table = io::CsvTable::read(folder / "sections.csv", {"section"},
-                                        {"area_m2", "inertia_y_m4", "inertia_z_m4", "inertia_yz_m4", "torsion_m4",
-                                         "shear_area_y_m2", "shear_area_z_m2", "thickness_m", "bending_inertia_ratio"});
+  const auto table =
+      io::CsvTable::read(folder / "sections.csv", {"section"},
+                         {"area_m2", "inertia_y_m4", "inertia_z_m4", "inertia_yz_m4", "torsion_m4", "shear_area_y_m2",
+                          "shear_area_z_m2", "thickness_m", "bending_inertia_ratio", "shear_thickness_ratio"});
   for (std::size_t row = 0; row < table.rows(); ++row) {
     fe::Section s{.name = unique_name(table, row, "section", index.sections),
                   .area_m2 = at_least_zero(table, row, "area_m2", 0.0),
@@ -282,6 +283,7 @@ void read_sections(const std::filesystem::path& folder, fe::Model& model, NameIn
     s.shear_area_z_m2 = at_least_zero(table, row, "shear_area_z_m2", 0.0);
     s.thickness_m = at_least_zero(table, row, "thickness_m", 0.0);
     s.bending_inertia_ratio = at_least_zero(table, row, "bending_inertia_ratio", 1.0, true);
+    s.shear_thickness_ratio = at_least_zero(table, row, "shear_thickness_ratio", 0.0);
     index.sections.emplace(s.name, static_cast<int>(row));
     model.sections.push_back(s);
   }

@@ -27,11 +27,19 @@ void write_parts(const fe::Model& model, const std::filesystem::path& folder) {
     materials.row({m.name, m.youngs_modulus_Pa, m.shear_modulus_Pa, m.poisson_ratio, m.density_kg_m3});
   materials.save(folder / "materials.csv");
 
-  io::CsvWriter sections({"section", "area_m2", "inertia_y_m4", "inertia_z_m4", "inertia_yz_m4", "torsion_m4",
-                          "shear_area_y_m2", "shear_area_z_m2", "thickness_m", "bending_inertia_ratio"});
-  for (const auto& s : model.sections)
-    sections.row({s.name, s.area_m2, s.inertia_y_m4, s.inertia_z_m4, s.inertia_yz_m4, s.torsion_m4, s.shear_area_y_m2,
-                  s.shear_area_z_m2, s.thickness_m, s.bending_inertia_ratio});
+  // The last column is there only where a shell is flexible in transverse shear.
+  const bool shears = std::ranges::any_of(model.sections, [](const fe::Section& s) { return s.shear_thickness_ratio != 0.0; });
+  std::vector<std::string> header = {
+      "section",    "area_m2",         "inertia_y_m4",    "inertia_z_m4", "inertia_yz_m4",
+      "torsion_m4", "shear_area_y_m2", "shear_area_z_m2", "thickness_m",  "bending_inertia_ratio"};
+  if (shears) header.emplace_back("shear_thickness_ratio");
+  io::CsvWriter sections(header);
+  for (const auto& s : model.sections) {
+    Row row = {s.name,       s.area_m2,         s.inertia_y_m4,    s.inertia_z_m4, s.inertia_yz_m4,
+               s.torsion_m4, s.shear_area_y_m2, s.shear_area_z_m2, s.thickness_m,  s.bending_inertia_ratio};
+    if (shears) row.emplace_back(s.shear_thickness_ratio);
+    sections.row(row);
+  }
   sections.save(folder / "sections.csv");
 }
 

@@ -68,6 +68,10 @@ TEST(DoubtfulMesh, ShellsThatAreNoThinPlatesAreTold) {
   const auto lines = doubtful_mesh(model);
   ASSERT_EQ(lines.size(), 1U);
   EXPECT_NE(lines.front().find("shells of group 'slab' are 1 m thick and all shells together 10 m wide"), std::string::npos);
+  model.sections.front().shear_thickness_ratio = fe::homogeneous_shear_ratio;
+  EXPECT_TRUE(doubtful_mesh(model).empty());
+  model.formulation.shear_flexible = false;
+  EXPECT_EQ(doubtful_mesh(model).size(), 1U);
   model.sections.front().thickness_m = 0.5;
   EXPECT_TRUE(doubtful_mesh(model).empty());
 }

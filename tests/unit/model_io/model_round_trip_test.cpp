@@ -79,9 +79,10 @@ TEST(ModelRoundTrip, ReturnsPropertiesAndParameters) {
   ASSERT_EQ(a.sections.size(), b.sections.size());
   for (std::size_t i = 0; i < a.sections.size(); ++i) {
     EXPECT_EQ(a.sections[i].name, b.sections[i].name);
-    for (const auto field : {&fe::Section::area_m2, &fe::Section::inertia_y_m4, &fe::Section::inertia_z_m4,
-                             &fe::Section::inertia_yz_m4, &fe::Section::torsion_m4, &fe::Section::shear_area_y_m2,
-                             &fe::Section::shear_area_z_m2, &fe::Section::thickness_m, &fe::Section::bending_inertia_ratio}) {
+    for (const auto field :
+         {&fe::Section::area_m2, &fe::Section::inertia_y_m4, &fe::Section::inertia_z_m4, &fe::Section::inertia_yz_m4,
+          &fe::Section::torsion_m4, &fe::Section::shear_area_y_m2, &fe::Section::shear_area_z_m2, &fe::Section::thickness_m,
+          &fe::Section::bending_inertia_ratio, &fe::Section::shear_thickness_ratio}) {
       expect_12_digits(a.sections[i].*field, b.sections[i].*field);
     }
   }

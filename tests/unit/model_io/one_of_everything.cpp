@@ -23,6 +23,7 @@ fe::Model one_of_everything() {
   slab.name = "slab";
   slab.thickness_m = 0.0617;
   slab.bending_inertia_ratio = 1.25;
+  slab.shear_thickness_ratio = 0.8;
   m.sections = {tube, slab};
   fe::Element beam;
   beam.id = 10;
