@@ -154,7 +154,7 @@ blind-modes: build ## make blind-modes N=200 SEED=1: records of random structure
 decks: build ## every deck of Nastran, Abaqus, CalculiX, ANSYS and SAP2000 whose frequencies are known, imported and compared (results/decks/frequencies.csv)
 	@cmake --build $(BUILD) -j $(JOBS) --target test_model_io
 	@mkdir -p results/decks && rm -f results/decks/frequencies.csv
-	@TWINDECK_DECK_TABLE=results/decks/frequencies.csv $(BUILD)/bin/test_model_io --gtest_brief=1 --gtest_filter='KnownDecks*:PublicInpDecks*:NastranDecks*:AnsysDecks*:AnsysManual*:DeckStage*:QuadraticDecks*:Sap2000*:InpAxes*' >/dev/null
+	@TWINDECK_DECK_TABLE=results/decks/frequencies.csv $(BUILD)/bin/test_model_io --gtest_brief=1 --gtest_filter='KnownDecks*:PublicInpDecks*:NastranDecks*:AnsysDecks*:AnsysManual*:DeckStage*:QuadraticDecks*:Sap2000*:InpAxes*:ThickShells*' >/dev/null
 	@$(PRODUCT)workflows/python.sh tests/data/decks/table.py results/decks/frequencies.csv
 
 BATCH ?= -j$(JOBS)

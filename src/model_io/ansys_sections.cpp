@@ -221,6 +221,7 @@ CrossSection bar_section(Builder& builder, const Member& member) {
 
 CrossSection shell_section(Builder& builder, const Member& member) {
   CrossSection cross;
+  if (!member.is("SHELL63")) cross.section.shear_thickness_ratio = fe::homogeneous_shear_ratio;
   const SectionDefinition* section =
       member.is("SHELL181") || member.is("SHELL281") ? section_of(builder, member, "SHELL") : nullptr;
   if (section != nullptr) {

@@ -31,8 +31,9 @@ const std::map<std::string, Type>& types() {
       {"JOINTC", {InpKind::joint, 2}},     {"SPRINGA", {InpKind::spring, 2}},   {"SPRING1", {InpKind::spring, 1}},
       {"SPRING2", {InpKind::spring, 2}},   {"DASHPOTA", {InpKind::dashpot, 2}}, {"DASHPOT1", {InpKind::dashpot, 1}},
       {"DASHPOT2", {InpKind::dashpot, 2}}, {"MASS", {InpKind::mass, 1}},        {"ROTARYI", {InpKind::mass, 1}},
-      {"B31OS", {InpKind::beam, 2}},       {"B31OSH", {InpKind::beam, 2}},      {"B32OS", {InpKind::beam, 3}},
-      {"B32OSH", {InpKind::beam, 3}},      {"PIPE31", {InpKind::beam, 2}},      {"PIPE32", {InpKind::beam, 3}}};
+      {"S4R5", {InpKind::shell, 4}},       {"B31OS", {InpKind::beam, 2}},       {"B31OSH", {InpKind::beam, 2}},
+      {"B32OS", {InpKind::beam, 3}},       {"B32OSH", {InpKind::beam, 3}},      {"PIPE31", {InpKind::beam, 2}},
+      {"PIPE32", {InpKind::beam, 3}}};
   return known;
 }
 
@@ -47,6 +48,8 @@ int inp_node_count(const std::string& type) {
   const auto found = types().find(type);
   return found == types().end() ? 0 : found->second.nodes;
 }
+
+bool inp_shear_flexible(const std::string& type) { return !type.ends_with("R5") && !type.starts_with("STRI"); }
 
 std::string inp_linear_type(const std::string& type) {
   if (type.starts_with("C3D27")) return "C3D20 (hexahedra)";

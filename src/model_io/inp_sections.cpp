@@ -260,9 +260,11 @@ void assign_shell(InpParts& parts, const InpCard& card) {
   const int material = material_of(parts, card);
   fe::Section s;
   s.thickness_m = above_zero(card.line_of(0, "the thickness"), 0);
-  const int section = section_of_set(parts, card, s);
-  for (const InpElement* element : parts.elements_of(card, InpKind::shell))
+  for (const InpElement* element : parts.elements_of(card, InpKind::shell)) {
+    s.shear_thickness_ratio = inp_shear_flexible(element->type) ? fe::homogeneous_shear_ratio : 0.0;
+    const int section = section_of_set(parts, card, s);
     parts.add_element(to_element(parts, card, *element, fe::ElementType::shell, material, section));
+  }
 }
 
 /// *SOLID SECTION: area of trusses; solids have no section of their own.

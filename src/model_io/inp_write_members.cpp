@@ -204,10 +204,17 @@ void InpWriter::faces_and_blocks() {
       continue;
     }
     const fe::Section& s = model_.sections[fe::slot(e.section)];
-    const bool triangle = fe::is_triangle(e);
+    const bool triangle = fe::is_triangle(e), thin = fe::shell_properties(model_, e).shear_thickness_ratio == 0.0;
+    const char* type = triangle ? "S3" : "S4";
+    if (thin && flavour_ == InpFlavour::abaqus) type = triangle ? "STRI3" : "S4R5";
+    if (thin && flavour_ == InpFlavour::calculix) note("thin shells are flexible in transverse shear in CalculiX");
+    constexpr double digits = 1e-9;  // [-] of a model folder's numbers
+    if (!thin && std::abs(s.shear_thickness_ratio - fe::homogeneous_shear_ratio) > digits)
+      note(fmt::format("the shear thickness ratio {} of section '{}' is left out: 5/6 stands for it", s.shear_thickness_ratio,
+                       s.name));
     if (triangle && flavour_ == InpFlavour::calculix)
       note("three-node shells are S3, of which CalculiX makes linear wedges: they bend too stiffly there");
-    const std::string set = element_block(triangle ? "S3" : "S4", e.group.empty() ? s.name : e.group, group.second);
+    const std::string set = element_block(type, e.group.empty() ? s.name : e.group, group.second);
     elements_ += fmt::format("*SHELL SECTION, ELSET={}, MATERIAL={}\n{}\n", set, material_name, format_number(s.thickness_m));
     if (s.bending_inertia_ratio != 1.0)
       note(fmt::format("the bending inertia ratio {} of section '{}' is left out", s.bending_inertia_ratio, s.name));

@@ -161,10 +161,16 @@ void read_shell(Parts& parts, const Card& card) {
            "give MID2 the material of MID1");
   if (p.integer_or(10, 0) != 0) p.fail("couples membrane and bending (MID4), which is not read", "leave MID4 blank");
   e.group = name;
-  e.section = parts.add_section({.name = name, .thickness_m = t, .bending_inertia_ratio = p.number_or(4, 1.0)});
   e.material = parts.material(p, membrane, p.number_or(7, 0.0) / t, name);
-  if (p.integer_or(5, 0) != 0)
-    parts.note_once("shells are thin plates here: the transverse shear that MID3 of PSHELL allows is left out");
+  fe::Section s{.name = name, .thickness_m = t, .bending_inertia_ratio = p.number_or(4, 1.0)};
+  if (const long shear = p.integer_or(5, 0); shear != 0) {  // MID3; blank: rigid in transverse shear
+    const double ratio = p.number_or(6, fe::homogeneous_shear_ratio);
+    if (!(ratio > 0.0)) p.fail(fmt::format("TS/T is {:g}, expected a value above 0", ratio), "leave it blank, or mend it");
+    const fe::Material& m = parts.model.materials[fe::slot(e.material)];
+    s.shear_thickness_ratio =
+        ratio * parts.elastic(p, shear).shear_modulus_Pa * 2.0 * (1.0 + m.poisson_ratio) / m.youngs_modulus_Pa;
+  }
+  e.section = parts.add_section(s);
   parts.add_element(e);
 }
 

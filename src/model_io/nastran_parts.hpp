@@ -69,6 +69,8 @@ struct Parts : DeckModel {
   [[nodiscard]] const Card& property(const DeckPlace& element, long id, const std::vector<std::string>& kinds) const;
   /// What CELAS1 and CMASS1 take from the PELAS or PMASS that they name, by default that of their own number.
   [[nodiscard]] std::pair<long, double> constant(const Card& card, const std::map<long, double>& of, const char* kind) const;
+  /// Constants of MAT1 `id`, without a name.
+  [[nodiscard]] fe::Material elastic(const DeckPlace& from, long id) const;
   /// Position of MAT1 `id` in the model; `added_density` (mass per volume, not structural) makes a material of its own for
   /// `owner`.
   [[nodiscard]] int material(const DeckPlace& from, long id, double added_density = 0.0, const std::string& owner = "");

@@ -219,14 +219,12 @@ std::pair<long, double> Parts::constant(const Card& card, const std::map<long, d
   return *found;
 }
 
-int Parts::material(const DeckPlace& from, long id, double added_density, const std::string& owner) {
+fe::Material Parts::elastic(const DeckPlace& from, long id) const {
   const auto found = materials.find(id);
   if (found == materials.end())
     from.fail(fmt::format("material {} is no MAT1 of this deck", id), "give an isotropic material by MAT1");
   const Card& card = *found->second;
-  const std::string name = fmt::format("mat1_{}{}", id, added_density > 0.0 ? "_" + owner : "");
-  if (const auto known = material_position.find(name); known != material_position.end()) return known->second;
-  fe::Material m{.name = name};
+  fe::Material m;
   const double e = card.number_or(1, 0.0), g = card.number_or(2, 0.0);
   const bool has_ratio = !card.blank(3);
   m.poisson_ratio = card.number_or(3, 0.0);
@@ -235,7 +233,17 @@ int Parts::material(const DeckPlace& from, long id, double added_density, const 
   if (!(m.youngs_modulus_Pa > 0.0)) card.fail("has no Young's modulus above 0", "give E in field 3");
   if (e > 0.0 && g > 0.0 && !has_ratio) m.poisson_ratio = std::clamp(e / (2.0 * g) - 1.0, -0.99, 0.499);
   m.shear_modulus_Pa = g > 0.0 ? g : m.youngs_modulus_Pa / (2.0 * (1.0 + m.poisson_ratio));
-  m.density_kg_m3 = card.number_or(4, 0.0) + added_density;
+  m.density_kg_m3 = card.number_or(4, 0.0);
+  return m;
+}
+
+int Parts::material(const DeckPlace& from, long id, double added_density, const std::string& owner) {
+  const std::string name = fmt::format("mat1_{}{}", id, added_density > 0.0 ? "_" + owner : "");
+  if (const auto known = material_position.find(name); known != material_position.end()) return known->second;
+  fe::Material m = elastic(from, id);
+  const Card& card = *materials.at(id);
+  m.name = name;
+  m.density_kg_m3 += added_density;
   if (!(m.density_kg_m3 >= 0.0) || added_density < 0.0) card.fail("a density is negative", "check the sign");
   material_position[name] = static_cast<int>(model.materials.size());
   expansion[material_position[name]] = {card.number_or(5, 0.0), card.number_or(6, 0.0)};

@@ -133,8 +133,8 @@ void complete_walls(const Shape& shape, double nu, fe::Section& s) {
 }
 
 auto numbers_of(const fe::Section& s) {
-  return std::array{s.area_m2,         s.inertia_y_m4,    s.inertia_z_m4, s.inertia_yz_m4,        s.torsion_m4,
-                    s.shear_area_y_m2, s.shear_area_z_m2, s.thickness_m,  s.bending_inertia_ratio};
+  return std::array{s.area_m2,         s.inertia_y_m4,    s.inertia_z_m4, s.inertia_yz_m4,         s.torsion_m4,
+                    s.shear_area_y_m2, s.shear_area_z_m2, s.thickness_m,  s.bending_inertia_ratio, s.shear_thickness_ratio};
 }
 
 }  // namespace

@@ -382,14 +382,13 @@ class SapReader {
       if (!type.starts_with("SHELL-TH") && !type.starts_with("SHELLTH"))
         section.fail(fmt::format("is of type {}, of which Shell-Thin and Shell-Thick are read", section.get("Type")),
                      "make it a shell");
-      if (type.ends_with("THICK"))
-        deck_.note_once("shells are thin plates here: the transverse shear of Shell-Thick is left out");
       refuse_factors(section, {"F11Mod", "F22Mod", "F12Mod", "V13Mod", "V23Mod", "MMod"});
       const double bending = section.number_of("M11Mod", 1.0);
       if (section.number_of("M22Mod", 1.0) != bending || section.number_of("M12Mod", 1.0) != bending || !(bending > 0.0))
         section.fail("M11Mod, M22Mod and M12Mod are not one number above 0", "give one factor of bending");
       fe::Section s{.name = section.get("Section"), .thickness_m = section.number_of("Thickness")};
       if (!(s.thickness_m > 0.0)) section.fail("the thickness is not above 0", "give it");
+      if (type.ends_with("THICK")) s.shear_thickness_ratio = fe::homogeneous_shear_ratio;
       s.bending_inertia_ratio = bending * std::pow(section.number_of("BendThick", s.thickness_m) / s.thickness_m, 3);
       fe::Element e = element(row, "Area", fe::ElementType::shell, section);
       e.section = deck_.add_section(s);

@@ -1,5 +1,5 @@
 /// Text tables of SAP2000, written from the description of the format. Oracle: closed forms (Euler's beams, masses on springs,
-/// a mass on a column, Kirchhoff's plate), 1 % for beams, 2 % for shells; refusals name file, line and table.
+/// a mass on a column, Kirchhoff's and Mindlin's plates), 1 % for beams, 2 % for shells; refusals name file, line and table.
 #include "model_io/sap2000.hpp"
 
 #include <cmath>
@@ -126,7 +126,8 @@ TEST(Sap2000, AReleaseIsAHinge) {
   expect_known("propped_beam", text, {euler_Hz(3.92660231, i22, 4.0), euler_Hz(3.92660231, i33, 4.0)}, beams);
 }
 
-TEST(Sap2000, APlateOnItsEdges) {
+/// A plate of 2 m on its edges, which do not turn along themselves, in 16 × 16 areas, held in its plane.
+std::string plate(const std::string& type, double thickness) {
   constexpr int n = 16;
   std::string joints = "TABLE:  \"JOINT COORDINATES\"\n", areas = "TABLE:  \"CONNECTIVITY - AREA\"\n",
               assigned = "TABLE:  \"AREA SECTION ASSIGNMENTS\"\n", held = restraints;
@@ -135,20 +136,35 @@ TEST(Sap2000, APlateOnItsEdges) {
     for (int i = 0; i <= n; ++i) {
       joints += fmt::format("   Joint={}   XorR={}   Y={}   Z=0\n", number(i, j), 2.0 * i / n, 2.0 * j / n);
       const bool edge = i == 0 || j == 0 || i == n || j == n;
-      if (edge) held += restraint(number(i, j), i + j == 0 ? "111000" : "001000");
+      std::string flags = edge ? "111001" : "110001";
+      if (i == 0 || i == n) flags[3] = '1';
+      if (j == 0 || j == n) flags[4] = '1';
+      held += restraint(number(i, j), flags);
       if (i == n || j == n) continue;
       areas += fmt::format("   Area={}   NumJoints=4   Joint1={}   Joint2={}   Joint3={}   Joint4={}\n", number(i, j),
                            number(i, j), number(i + 1, j), number(i + 1, j + 1), number(i, j + 1));
       assigned += fmt::format("   Area={}   Section=P   MatProp=Default\n", number(i, j));
     }
-  held.replace(held.find(fmt::format("Joint={}   U1=No   U2=No", n + 1)), fmt::format("Joint={}   U1=No   U2=No", n + 1).size(),
-               fmt::format("Joint={}   U1=No   U2=Yes", n + 1));
-  const std::string properties =
-      "TABLE:  \"AREA SECTION PROPERTIES\"\n   Section=P   Material=Steel   MatAngle=0   AreaType=Shell   Type=Shell-Thin   "
-      "DrillDOF=Yes   Thickness=0.02   BendThick=0.02\n\n";
-  const double unit = pi / (2.0 * 4.0) * std::sqrt(210e9 * 0.02 * 0.02 / (12.0 * 0.91 * 7850.0));
-  expect_known("plate", metres + steel + properties + joints + areas + assigned + held, {2.0 * unit, 5.0 * unit, 5.0 * unit},
-               shells);
+  const std::string properties = fmt::format(
+      "TABLE:  \"AREA SECTION PROPERTIES\"\n   Section=P   Material=Steel   MatAngle=0   AreaType=Shell   Type={}   "
+      "DrillDOF=Yes   Thickness={}   BendThick={}\n\n",
+      type, thickness, thickness);
+  return metres + steel + properties + joints + areas + assigned + held;
+}
+
+// Kirchhoff's plate and, a tenth as thick as wide, Mindlin's without rotary inertia: ω² less by the factor 1 + D k² / (κ G t).
+TEST(Sap2000, APlateOnItsEdges) {
+  const auto known = [](double t, bool shear) {
+    std::vector<double> f;
+    for (const double waves : {2.0, 5.0, 5.0}) {
+      const double k2 = waves * pi * pi / 4.0, softer = shear ? k2 * t * t / 12.0 / 0.91 * 2.6 * 1.2 : 0.0;
+      f.push_back(k2 * std::sqrt(210e9 * t * t / (12.0 * 0.91 * 7850.0) / (1.0 + softer)) / (2.0 * pi));
+    }
+    return f;
+  };
+  expect_known("plate", plate("Shell-Thin", 0.02), known(0.02, false), shells);
+  expect_known("thick plate, Shell-Thin", plate("Shell-Thin", 0.2), known(0.2, false), shells);
+  expect_known("thick plate, Shell-Thick", plate("Shell-Thick", 0.2), known(0.2, true), shells);
 }
 
 // Cracked frames: a quarter of the bending stiffness is half of the frequency. An assignment of the centroid changes nothing.
