@@ -39,6 +39,12 @@ void refuse_table(Parts& /*parts*/, const Command& command) {
                "give EX, PRXY and DENS of an isotropic material by MP");
 }
 
+/// Before the first solution; archives begin with one.
+void read_clear(Parts& parts, const Command& command) {
+  if (!parts.nodes.empty() || !parts.elements.empty())
+    command.fail("throws away the model that stands before it", "leave out what it throws away, or the command");
+}
+
 void refuse_file(Parts& /*parts*/, const Command& command) {
   command.fail("other files are not read", "put the text of the file in its place");
 }
@@ -73,11 +79,13 @@ const Handlers& structural() {
                                                   {read_section_control, {"SECC"}},
                                                   {read_support, {"D"}},
                                                   {read_released_support, {"DDEL"}},
+                                                  {read_symmetry, {"DSYM"}},
                                                   {read_couple, {"CP"}},
                                                   {read_rigid_region, {"CERI"}},
                                                   {read_lumped, {"LUMP"}},
                                                   {refuse_table, {"TB"}},
                                                   {read_equation, {"CE"}},
+                                                  {read_clear, {"/CLEA"}},
                                                   {refuse_file, {"/INPU", "*USE", "CDRE", "RESU"}}});
   return known;
 }
@@ -146,19 +154,26 @@ void read_over_block(Parts& parts, const Command& start) {
 }
 
 /// Of what follows the first solution, the loads and kinds of solutions up to the modal one are read. A second solution of a
-/// structure that was changed between them is another model.
+/// structure that was changed between them is another model, unless it answers another question than the modes that are found
+/// already: a spectrum, a response.
 void check_rest(Parts& parts, bool modal_is_done) {
   Command command, change;
   bool changed = false;
   while (parts.deck.next(command)) {
+    if (modal_is_done && command.key == "/CLEA")
+      return parts.notes.push_back(
+          fmt::format("what follows {} (line {}) is another model and is not read", command.name, command.line));
     if (modal_is_done && (command.key == "PSTR" || command.key == "PERT") && command.word(0) != "OFF")
       command.fail("asks for modes of the loaded structure in a further solution, of which only the first is read",
                    "keep the solution that is meant");
-    if (!modal_is_done && (read_solution(parts, command) || read_load(parts, command))) continue;
+    if ((!modal_is_done || command.key == "ANTY") && read_solution(parts, command)) continue;
+    if (!modal_is_done && read_load(parts, command)) continue;
     if (command.key == "SOLV" && !changed && !modal_is_done) modal_is_done = read_solve(parts, command);
-    if (command.key == "SOLV" && changed)
+    if (command.key == "SOLV" && changed && (!modal_is_done || parts.modal))
       change.fail("changes the structure between two solutions, of which only the first is read",
-                  "keep the solution that is meant");
+                  modal_is_done ? "keep the solution that is meant"
+                                : "keep the solution that is meant; where the modes follow a static solution, give the same "
+                                  "structure and supports to both");
     if (changed || !structural().contains(command.key)) continue;
     change = command;
     changed = true;

@@ -159,7 +159,7 @@ void build_model(Parts& parts) {
   add_ties(builder);
   add_supports(builder);
   for_each_member(parts, [&](const Member& m) {
-    if (m.type().kind == Kind::mass) add_mass(builder, m);
+    if (m.type().kind == Kind::mass || m.type().name == "COMBIN40") add_masses(builder, m);
   });
   for (const Component& component : parts.components)
     if (component.of_nodes && component.members.size() == 1 && builder.has_node(*component.members.begin()))

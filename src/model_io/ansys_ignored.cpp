@@ -15,7 +15,8 @@ struct Row {
 constexpr const char* loads = "is a load";
 
 constexpr Row rows[] = {
-    {"/BATC /CONF /FILN /CLEA /NERR /STAT /PMET /NOPR /GOPR /GO /NOLI /GOLI /WB /VERI /STIT /COPY /DELE /RENA /NPRO /CWD /MKDI "
+    {"/BATC /CONF /FILN /FILE /NERR /STAT /PMET /NOPR /GOPR /GO /NOLI /GOLI /WB /VERI /STIT /COPY /DELE /RENA /NPRO /CWD "
+     "/MKDI "
      "/SYS "
      "/UIS /UI /ABBR *ABBR /MENU /REPL /AUTO /WAIT /PAGE /FORM /HEAD /OUT /OUTP /GST /XML XMLO SAVE PARS *STAT *LIST /DFLA",
      "governs the session, its files and its messages"},
@@ -33,7 +34,7 @@ constexpr Row rows[] = {
      "temperature: moduli are taken at one temperature"},
     {"EXTO LATT AATT VATT KATT MSHK MSHA ESIZ SMRT MOPT KSEL LSEL ASEL VSEL CMGR CMPL EXTN DESI DOF CGLO",
      "speaks of geometry and meshing, of which an archive holds the result"},
-    {"F FDEL FCUM FJ SF SFE SFDE SFED SFGR SFCU SFA SFL SFBE ACEL CMAC OMEG DOME CGOM DCGO CMOM CORI IRLF INER", loads, true},
+    {"F FDEL FCUM FJ SF SFE SFDE SFED SFGR SFCU SFA SFL SFBE ACEL CMAC OMEG DOME CGOM DCGO CMOM IRLF INER", loads, true},
     {"CRPL", "limits creep, which modes do not have", true},
     {"JPGP PNGR TIFF IMME BMPG PSCR /GRTY /GSAV /GRES /GLIN /DEVD /CMAP /IMAG /UDOC /CVAL /CFOR /AN3D /ANUM /SEG /NOCO /SHRI",
      "makes pictures", true},

@@ -171,6 +171,41 @@ std::array<bool, 3> moving_directions(const Builder& builder, long id) {
   return moves;
 }
 
+/// The direction that a COMBIN40 acts in, 1 to 6.
+long direction_of(const TypeDefinition& type) { return std::max(1L, type.option(3)); }
+
+/// A mass along the axes of node `id`. One number serves where the directions of another mass do not move.
+void add_mass(Builder& builder, const Member& member, long id, const std::array<double, 3>& masses,
+              const Eigen::Vector3d& inertia) {
+  fe::PointMass mass{.group = builder.group(member, fmt::format("real_{}", member.element.real)), .node = builder.node(id)};
+  mass.inertia_kg_m2 = inertia;
+  const bool one = masses[0] == masses[1] && masses[0] == masses[2];
+  const std::array<bool, 3> moves = one ? std::array{true, true, true} : moving_directions(builder, id);
+  bool given = false;
+  for (std::size_t d = 0; d < 3; ++d) {
+    if (!moves[d]) continue;
+    if (given && masses[d] != mass.mass_kg)
+      builder.fail(member,
+                   fmt::format("has masses {:g}, {:g}, {:g} along x, y, z, and node {} moves in directions that differ",
+                               masses[0], masses[1], masses[2], id),
+                   "give one mass in all three directions, or hold the node in the others");
+    mass.mass_kg = masses[d];
+    given = true;
+  }
+  if (!given) mass.mass_kg = *std::ranges::max_element(masses);
+  const Eigen::Matrix3d& axes = node_of(builder, id).axes;
+  const auto turned = [&](const Eigen::Vector3d& v) {
+    return !(axes.transpose() * v.asDiagonal() * axes).isApprox(v.asDiagonal().toDenseMatrix(), 1e-9);
+  };
+  if (turned(Eigen::Vector3d(masses.data())) || turned(inertia))
+    builder.fail(member, "has a mass or inertia that differs by direction at a node whose axes are turned",
+                 "give the node global axes, or one mass and inertia");
+  if (mass.mass_kg < 0.0 || inertia.minCoeff() < 0.0)
+    builder.parts.at(builder.reals(member).line, "R")
+        .fail(fmt::format("set {} has a negative mass", member.element.real), "check the sign");
+  builder.parts.model.masses.push_back(mass);
+}
+
 }  // namespace
 
 void add_member(Builder& builder, const Member& member) {
@@ -192,11 +227,14 @@ void add_spring(Builder& builder, const Member& member) {
   s.node2 = builder.node(member.element.nodes[1]);
   s.stiffness = r.at(1);
   s.damping = r.at(2);
-  if (s.stiffness < 0.0 || s.damping < 0.0 || r.at(3) != 0.0)
+  const bool combined = type.type->name == "COMBIN40";  // whose constants are K1, C, mass, gap, sliding force, K2
+  const bool linear = combined ? r.at(4) == 0.0 && r.at(5) == 0.0 && r.at(6) == 0.0 : r.at(3) == 0.0;
+  if (s.stiffness < 0.0 || s.damping < 0.0 || !linear)
     builder.parts.at(r.line, "R")
         .fail(fmt::format("set {} is no linear spring", member.element.real),
-              "give stiffness and damping of 0 or more, and no third constant");
-  if (const long dof = type.option(2); dof > 0) {
+              combined ? "give stiffness and damping of 0 or more, no gap, no sliding force and no second spring"
+                       : "give stiffness and damping of 0 or more, and no third constant");
+  if (const long dof = combined ? direction_of(type) : type.option(2); dof > 0) {
     s.rotation = dof > 3;
     s.direction = axes_of(builder, member).row((dof - 1) % 3);
   } else {
@@ -211,40 +249,30 @@ void add_spring(Builder& builder, const Member& member) {
   builder.parts.model.springs.push_back(s);
 }
 
-void add_mass(Builder& builder, const Member& member) {
+void add_masses(Builder& builder, const Member& member) {
   const RealSet& r = builder.reals(member);
-  const long id = member.element.nodes[0], shape = member.definition.option(3);
   std::array<double, 3> masses = {r.at(1), r.at(1), r.at(1)};
-  fe::PointMass mass{.group = builder.group(member, fmt::format("real_{}", member.element.real)), .node = builder.node(id)};
+  Eigen::Vector3d inertia = Eigen::Vector3d::Zero();
+  if (member.type().kind == Kind::spring) {
+    const std::size_t dof = fe::slot(static_cast<int>(direction_of(member.definition)) - 1);
+    const double share = 0.5 * static_cast<double>(member.definition.option(6));  // of it at the second node
+    for (std::size_t i = 0; i < 2; ++i) {
+      const double mass = (i == 0 ? 1.0 - share : share) * r.at(3);
+      masses = {};
+      (dof < 3 ? masses[dof] : inertia[static_cast<int>(dof) - 3]) = mass;
+      if (mass != 0.0) add_mass(builder, member, member.element.nodes[i], masses, inertia);
+    }
+    return;
+  }
+  const long shape = member.definition.option(3);
   if (shape == 0) {
     masses = {r.at(1), r.at(2), r.at(3)};
-    mass.inertia_kg_m2 = {r.at(4), r.at(5), r.at(6)};
+    inertia = {r.at(4), r.at(5), r.at(6)};
   } else if (shape == 3 || shape == 4) {
     masses[2] = 0.0;
-    if (shape == 3) mass.inertia_kg_m2.z() = r.at(2);
+    if (shape == 3) inertia.z() = r.at(2);
   }
-  // One number serves where the directions of another mass do not move.
-  const bool one = masses[0] == masses[1] && masses[0] == masses[2];
-  const std::array<bool, 3> moves = one ? std::array{true, true, true} : moving_directions(builder, id);
-  bool given = false;
-  for (std::size_t d = 0; d < 3; ++d) {
-    if (!moves[d]) continue;
-    if (given && masses[d] != mass.mass_kg)
-      builder.fail(member,
-                   fmt::format("has masses {:g}, {:g}, {:g} along x, y, z, and node {} moves in directions that differ",
-                               masses[0], masses[1], masses[2], id),
-                   "give one mass in all three directions, or hold the node in the others");
-    mass.mass_kg = masses[d];
-    given = true;
-  }
-  if (!given) mass.mass_kg = *std::ranges::max_element(masses);
-  const Eigen::Vector3d& inertia = mass.inertia_kg_m2;
-  if (node_of(builder, id).rotated() && (inertia.x() != inertia.y() || inertia.x() != inertia.z()))
-    builder.fail(member, "has inertia that differs by direction at a node whose axes are turned",
-                 "give the node global axes, or one inertia");
-  if (mass.mass_kg < 0.0 || inertia.minCoeff() < 0.0)
-    builder.parts.at(r.line, "R").fail(fmt::format("set {} has a negative mass", member.element.real), "check the sign");
-  builder.parts.model.masses.push_back(mass);
+  add_mass(builder, member, member.element.nodes[0], masses, inertia);
 }
 
 void add_supports(Builder& builder) {

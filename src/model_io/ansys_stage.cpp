@@ -13,6 +13,9 @@
 namespace twindeck::model_io::ansys {
 namespace {
 
+/// OMEGA and its like, of the structure, a component or its axes.
+bool spins(const Command& c) { return c.key == "OMEG" || c.key == "CMOM" || c.key == "CGOM"; }
+
 bool is_on(const Command& command) { return command.word(0) == "ON" || command.word(0) == "1" || command.word(0) == "YES"; }
 
 void read_nodal_force(Parts& parts, const Command& command) {
@@ -206,6 +209,13 @@ bool read_solution(Parts& parts, const Command& command) {
   } else if (command.key == "PERT") {
     parts.perturbed = command.word(0).starts_with("MODA");
     parts.modal = parts.modal || parts.perturbed;
+  } else if (command.key == "CORI" || command.key == "OMEG") {
+    constexpr std::size_t softens = 3;  // field of OMEGA
+    const bool gyroscopic = command.key == "CORI";
+    if (gyroscopic ? command.blank(0) || is_on(command) : command.number_or(softens, 0.0) != 0.0)
+      command.fail("asks for the modes of a spinning structure, whose gyroscopic forces and softening are not read",
+                   "leave it out for the modes at rest");
+    return gyroscopic;
   } else {
     return false;
   }
@@ -263,7 +273,10 @@ void apply_stage(Builder& builder) {
   }
   if (const auto& not_read = parts.stage->not_read)
     not_read->fail("loads the structure whose modes are asked for, and is not read",
-                   "read are F, ACEL, D, SFBEAM, SFE, BF, BFUNIF, TUNIF, INISTATE; write the load as forces by F");
+                   spins(*not_read)
+                       ? "spinning stiffens and softens, which forces by F do not: leave it out for the modes at rest"
+                       : "read are F, ACEL, D, SFBEAM, SFE, BF, BFUNIF, TUNIF, INISTATE; write the load as forces "
+                         "by F");
   Loader(builder).apply(*parts.stage);
   for (const char* carried : {"F", "ACEL", "SFBEAM", "SFE", "FDELE"}) parts.told.erase(carried);
 }

@@ -56,7 +56,9 @@ class Ties {
     for (const fe::RigidLink& link : parts_.model.links) slaves_.insert(link.slave);
   }
 
-  void link(int master, int slave) {
+  /// A slave that follows another node already, and is as whole as its master, leads it instead.
+  void link(int master, int slave, bool equals = false) {
+    if (equals && slaves_.contains(slave) && !slaves_.contains(master)) std::swap(master, slave);
     parts_.add_link(master, slave);
     slaves_.insert(slave);
   }
@@ -143,7 +145,8 @@ void add_rigid_regions(Builder& builder, Ties& ties) {
   for (const Link& region : builder.parts.links) {
     const DeckPlace at = builder.parts.at(region.line, "CERIG");
     if (builder.parts.is_whole(region.tied, builder.node(region.slave)))
-      ties.link(builder.node(region.master), builder.node(region.slave));
+      ties.link(builder.node(region.master), builder.node(region.slave),
+                builder.parts.is_whole(region.tied, builder.node(region.master)));
     else
       ties.follow(at, ties.node(at, region.master), ties.node(at, region.slave), region.tied, true);
   }
@@ -230,6 +233,21 @@ void read_support(Parts& parts, const Command& command) {
   for (const long node : parts.nodes_of(command, 0, 4)) {
     hold(parts, command, node, dofs, name);
     for (const int dof : dofs) parts.movements[node][dof] = {size, command.line};
+  }
+}
+
+void read_symmetry(Parts& parts, const Command& command) {
+  // DSYM,SYMM or ASYM,X, Y or Z: across the plane, the nodes' own motion along it is held, or all other motion
+  const int normal = command.blank(1) ? 0 : position_of(command.word(1), {"X", "Y", "Z"});
+  const bool symmetric = command.word(0) == "SYMM";
+  if ((!symmetric && command.word(0) != "ASYM") || normal < 0 || command.integer_or(2, 0) != 0)
+    command.fail("is no plane of symmetry across a global axis", "give SYMM or ASYM and X, Y or Z, in global axes");
+  std::vector<int> dofs;
+  for (int d = 0; d < 3; ++d) dofs.push_back((d == normal) == symmetric ? d : d + 3);
+  for (auto& [id, node] : parts.nodes) {
+    if (!parts.selected_nodes.has(id)) continue;
+    node.axes.setIdentity();  // as the command turns them
+    hold(parts, command, id, dofs, parts.selected_component);
   }
 }
 

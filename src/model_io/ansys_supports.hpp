@@ -8,6 +8,8 @@
 namespace twindeck::model_io::ansys {
 
 void read_support(Parts& parts, const Command& command);
+/// DSYM.
+void read_symmetry(Parts& parts, const Command& command);
 void read_released_support(Parts& parts, const Command& command);
 void read_couple(Parts& parts, const Command& command);
 void read_rigid_region(Parts& parts, const Command& command);

@@ -81,6 +81,35 @@ TEST(AnsysRefusals, NameLineAndCommand) {
   }
 }
 
+TEST(AnsysRefusals, SolutionsSymmetryAndMasses) {
+  for (const auto& [line, words] : std::vector<std::pair<std::string, std::string>>{
+           {"ANTYPE,2\nE,1,2,2,1\nSOLVE\nANTYPE,SPECTR\nD,1,UX\nSOLVE\nANTYPE,2\nSOLVE",
+            "deck.dat:13: D: changes the structure between two solutions"},
+           {"/CLEAR", "deck.dat:9: /CLEAR: throws away the model"},
+           {"CORIOLIS,ON", "deck.dat:9: CORIOLIS: asks for the modes of a spinning structure"},
+           {"DSYM,SYMM,X,11", "deck.dat:9: DSYM: is no plane of symmetry across a global axis"},
+           {"DSYM,EVEN,X", "deck.dat:9: DSYM: is no plane of symmetry"},
+           {"ET,2,COMBIN40\nR,2,1,0,1,.1\nTYPE,2\nREAL,2\nE,1,2\nTYPE,1", "deck.dat:10: R: set 2 is no linear spring"},
+           {"ET,2,MASS21\nR,2,1,2,1\nN,5,5,5,,30\nTYPE,2\nREAL,2\nE,5\nTYPE,1",
+            "differs by direction at a node whose axes are turned"},
+           {"OMEGA,,,1,1", "deck.dat:9: OMEGA: asks for the modes of a spinning structure"}})
+    EXPECT_NE(answer_to(refusable(line)).find(words), std::string::npos) << line << "\n" << answer_to(refusable(line));
+}
+
+TEST(AnsysRefusals, ModesUnderSpinAreThoseAtRest) {
+  const std::string answer = answer_to(refusable("PSTRES,ON\nOMEGA,,,1") + "ANTYPE,2\nSOLVE\n");
+  EXPECT_NE(answer.find("deck.dat:10: OMEGA: loads the structure"), std::string::npos) << answer;
+  EXPECT_NE(answer.find("for the modes at rest"), std::string::npos) << answer;
+}
+
+TEST(AnsysRefusals, AnotherModelBehindTheModesIsLeftOut) {
+  const TestFolder folder;
+  folder.write("deck.dat", refusable("ANTYPE,2") + "/CLEAR,NOSTART\nET,1,SHELL281\nN,1,7\nSOLVE\n");
+  const ImportedModel imported = read_ansys(folder.path() / "deck.dat");
+  EXPECT_EQ(imported.model.nodes.at(0).x_m.x(), 0.0);
+  EXPECT_EQ(imported.notes.front(), "what follows /CLEAR (line 16) is another model and is not read");
+}
+
 TEST(AnsysRefusals, CountFieldsAsTheyStand) {
   for (const auto& [line, words] : {std::pair{"EN,7,1,2,x,4", "deck.dat:9: EN: field 4 is 'x'"},
                                     {"R,1,0.1\nRMORE,x", "deck.dat:10: RMORE: field 1 is 'x'"},
