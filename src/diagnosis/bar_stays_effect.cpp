@@ -87,10 +87,7 @@ void BarStaysEffect::put_first(Diagnosis& result) const {
 
 void BarStaysEffect::take_out_entries(Instantiated& entries) const {
   std::erase_if(entries.candidates, [&](const std::unique_ptr<Candidate>& entry) {
-    const auto& actions = entry->hypothesis->actions;
-    const bool swings =
-        std::any_of(actions.begin(), actions.end(), [](const auto& action) { return action.kind == "element.string"; });
-    return swings &&
+    return entry->hypothesis->does(Primitive::element_string) &&
            std::any_of(stays_.begin(), stays_.end(), [&](const auto& stay) { return entry->location == "stay:" + stay.name; });
   });
 }

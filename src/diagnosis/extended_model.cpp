@@ -183,7 +183,7 @@ struct Extension {
 /// A factor on the stiffness or mass of a group, of elements or of a support.
 bool apply_scale(Extension& to, const ActionSpec& action) {
   const Candidate& c = *to.cause.candidate;
-  const bool mass = action.kind == "scale.mass";
+  const bool mass = action.primitive == Primitive::scale_mass;
   const double factor = to.value(action, "factor");
   const std::string id = c.hypothesis->id + "_" + to.name;
   if (const Place* part = element_place(to.places, c.location); part != nullptr) {
@@ -244,7 +244,7 @@ void drop_parameters_of_nothing(fe::Model& model, Eigen::VectorXd& theta) {
 /// Dampers moved, taken away, or with another law.
 void apply_damper(Extension& to, const ActionSpec& action) {
   const auto acts_on = [&](const fe::Spring& s) { return ("," + to.name + ",").find("," + s.name + ",") != std::string::npos; };
-  if (action.kind == "damper.move") {
+  if (action.primitive == Primitive::damper_move) {
     const Place& place = to.place();
     const auto& places = to.cause.candidate->places;
     for (std::size_t i = 0; i + 1 < places.size(); ++i)
@@ -253,19 +253,19 @@ void apply_damper(Extension& to, const ActionSpec& action) {
           spring.node = static_cast<int>(place.attributes.at("node_" + std::to_string(i)));
     return;
   }
-  if (action.kind == "damper.absent") {
+  if (action.primitive == Primitive::damper_absent) {
     std::erase_if(to.model.springs, acts_on);
     drop_parameters_of_nothing(to.model, to.theta);
     return;
   }
   for (fe::Spring& spring : to.model.springs) {
     if (!acts_on(spring)) continue;
-    if (action.kind == "damper.damping") spring.damping *= to.value(action, "factor");
-    if (action.kind == "damper.series" || action.kind == "damper.friction") {
+    if (action.primitive == Primitive::damper_damping) spring.damping *= to.value(action, "factor");
+    if (action.primitive == Primitive::damper_series || action.primitive == Primitive::damper_friction) {
       spring.stiffness = to.value(action, "stiffness");
       spring.series = true;
     }
-    if (action.kind == "damper.friction") spring.friction_N = to.value(action, "threshold");
+    if (action.primitive == Primitive::damper_friction) spring.friction_N = to.value(action, "threshold");
   }
 }
 
@@ -273,20 +273,20 @@ void apply_damper(Extension& to, const ActionSpec& action) {
 bool apply(fe::Model& model, Eigen::VectorXd& theta, const Places& places, const Cause& cause, const ActionSpec& action) {
   const Candidate& c = *cause.candidate;
   Extension to{model, theta, places, cause, c.location.substr(c.location.find(':') + 1)};
-  const std::string& kind = action.kind;
-  if (kind == "scale.stiffness" || kind == "scale.mass") return apply_scale(to, action);
-  if (kind == "element.spring" && c.places.size() != 1)
+  const Primitive does = action.primitive;
+  if (does == Primitive::scale_stiffness || does == Primitive::scale_mass) return apply_scale(to, action);
+  if (does == Primitive::element_spring && c.places.size() != 1)
     return c.hypothesis->set == "pairs(nodes)" && add_tie(model, to.name, to.value(action, "stiffness"));
-  if (kind == "support.move")
+  if (does == Primitive::support_move)
     move_support(model, to.place(), to.name, to.value(action, "position"));
-  else if (kind == "element.spring")
+  else if (does == Primitive::element_spring)
     add_prop(model, node_position(model, to.name), is_vertical(c, action), to.value(action, "stiffness"));
-  else if (kind == "mass.add")
+  else if (does == Primitive::mass_add)
     model.masses.push_back({"added_mass", node_position(model, to.name), to.value(action, "mass"), Eigen::Vector3d::Zero()});
-  else if (kind == "element.oscillator")
+  else if (does == Primitive::element_oscillator)
     add_oscillator(model, node_position(model, to.name), is_vertical(c, action), to.value(action, "mass"),
                    to.value(action, "frequency"));
-  else if (kind.starts_with("damper."))
+  else if (acts_on(does) == ActsOn::damper)
     apply_damper(to, action);
   else
     return false;
@@ -296,12 +296,13 @@ bool apply(fe::Model& model, Eigen::VectorXd& theta, const Places& places, const
 bool apply(fe::ParametricSystem& system, Eigen::VectorXd& theta, const Cause& cause, const ActionSpec& action) {
   const Candidate& c = *cause.candidate;
   const std::string name = c.location.substr(c.location.find(':') + 1);
-  if ((action.kind == "scale.stiffness" || action.kind == "scale.mass") && c.hypothesis->set == "groups") {
+  if ((action.primitive == Primitive::scale_stiffness || action.primitive == Primitive::scale_mass) &&
+      c.hypothesis->set == "groups") {
     scale_parameter(system.parameters, theta, name, c.value(action.number.at("factor"), cause.a));
     return true;
   }
-  const bool mass = action.kind == "mass.add";
-  if (!mass && !(action.kind == "element.spring" && c.places.size() == 1)) return false;
+  const bool mass = action.primitive == Primitive::mass_add;
+  if (!mass && !(action.primitive == Primitive::element_spring && c.places.size() == 1)) return false;
   const auto named = action.text.find("direction");
   const auto is_of_node = [&](const fe::DofLabel& dof) { return dof.node == name && dof.direction <= 2; };
   const bool upwards = named != action.text.end() && named->second == "vertical" &&
@@ -359,10 +360,10 @@ ExtendedModel extended_model(const DiagnosedModel& model, const Places& places, 
 }
 
 CorrectedChannels corrected_channels(const std::vector<matching::Channel>& channels, const Diagnosis& result) {
-  const auto each = [&](const char* kind, auto use) {
+  const auto each = [&](Primitive primitive, auto use) {
     for (const Effect& effect : result.effects)
       for (const ActionSpec& action : effect.cause.candidate->hypothesis->actions)
-        if (action.kind == kind && !effect.cause.candidate->channels.empty()) use(effect.cause, action);
+        if (action.primitive == primitive && !effect.cause.candidate->channels.empty()) use(effect.cause, action);
   };
   // Exchanges first: a sign or a gain belongs to a channel by its recorded name, wherever that stands.
   std::vector<std::size_t> stands(channels.size());  // (n_channels) where what a recorded name reads is
@@ -370,13 +371,14 @@ CorrectedChannels corrected_channels(const std::vector<matching::Channel>& chann
   const auto place = [&](const Cause& cause, std::size_t which) -> std::size_t& {
     return stands[static_cast<std::size_t>(cause.candidate->channels[which])];
   };
-  each("channel.swap", [&](const Cause& cause, const ActionSpec&) { std::swap(place(cause, 0), place(cause, 1)); });
+  each(Primitive::channel_swap, [&](const Cause& cause, const ActionSpec&) { std::swap(place(cause, 0), place(cause, 1)); });
   CorrectedChannels out{channels, std::vector<double>(channels.size(), 1.0)};
   for (std::size_t c = 0; c < channels.size(); ++c) out.channels[stands[c]].name = channels[c].name;
-  each("channel.gain", [&](const Cause& cause, const ActionSpec& action) {
+  each(Primitive::channel_gain, [&](const Cause& cause, const ActionSpec& action) {
     out.gain[place(cause, 0)] /= cause.candidate->value(action.number.at("factor"), cause.a);
   });
-  each("channel.sign", [&](const Cause& cause, const ActionSpec&) { out.channels[place(cause, 0)].direction *= -1.0; });
+  each(Primitive::channel_sign,
+       [&](const Cause& cause, const ActionSpec&) { out.channels[place(cause, 0)].direction *= -1.0; });
   return out;
 }
 

@@ -23,13 +23,13 @@ const std::vector<std::string>& contrast_keys() {
 
 /// Keys that an action goes by; none for what acts everywhere.
 std::vector<std::string> keys_of(const ActionSpec& action) {
-  const std::string& kind = action.kind;
-  if (kind == "damper.friction") return {"amplitude_m", "dampers"};
-  if (kind.starts_with("damper.")) return {"dampers"};
-  if (kind == "frequency.amplitude") return {"amplitude_m"};
-  if (kind == "mass.per_count" || kind == "person.oscillator") return {"people"};
-  if (kind.starts_with("wind.")) return {"wind_m_s"};
-  if (kind == "field.stiffness" || kind == "step.stiffness" || kind == "slip.stiffness" || kind == "soften.stiffness") {
+  const Primitive does = action.primitive;
+  if (does == Primitive::damper_friction) return {"amplitude_m", "dampers"};
+  if (acts_on(does) == ActsOn::damper) return {"dampers"};
+  if (does == Primitive::frequency_amplitude) return {"amplitude_m"};
+  if (acts_on(does) == ActsOn::people) return {"people"};
+  if (acts_on(does) == ActsOn::wind) return {"wind_m_s"};
+  if (acts_on(does) == ActsOn::varying) {
     const auto named = action.text.find("variable");
     return {named == action.text.end() ? "temperature_C" : named->second};
   }

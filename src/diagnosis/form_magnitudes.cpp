@@ -6,9 +6,7 @@
 namespace twindeck::diagnosis {
 
 bool is_a_size(const Candidate& candidate) {
-  const auto& actions = candidate.hypothesis->actions;
-  return candidate.low.size() > 0 && candidate.tuned < 0 &&
-         std::none_of(actions.begin(), actions.end(), [](const ActionSpec& action) { return action.kind == "support.move"; });
+  return candidate.low.size() > 0 && candidate.tuned < 0 && !candidate.hypothesis->does(Primitive::support_move);
 }
 
 std::vector<double> magnitude_factors(const Candidate& candidate) {

@@ -94,29 +94,26 @@ struct Assembly {
     if (candidate.places.empty()) return;
     const OnePlace* place = find(candidate, 0);
     for (const ActionSpec& action : candidate.hypothesis->actions) {
-      const bool structural = action.kind.starts_with("scale.") || action.kind == "mass.add" || action.kind == "support.move" ||
-                              action.kind.starts_with("element.");
-      if (!structural) continue;
+      if (!changes_structure(action.primitive)) continue;
       TWINDECK_ASSERT(place != nullptr);
       const auto value = [&](const char* name) { return candidate.value(action.number.at(name), cause.a); };
-      if (action.kind == "scale.stiffness") {
+      if (action.primitive == Primitive::scale_stiffness) {
         add(stiffness, value("factor") - 1.0, place->stiffness, place->stiffness_law);
         add(stiffness, (value("factor") - 1.0) * own_error_of(*place, false), place->stiffness);
       }
-      if (action.kind == "scale.mass") {
+      if (action.primitive == Primitive::scale_mass) {
         add(mass, value("factor") - 1.0, place->mass, place->mass_law);
         add(mass, (value("factor") - 1.0) * own_error_of(*place, true), place->mass);
       }
-      if (action.kind == "mass.add")
+      if (action.primitive == Primitive::mass_add)
         for (Index d = 0; d < place->directions.cols(); ++d)
           add_outer(mass, value("mass"), direction(*place, d), direction(*place, d));
-      if (action.kind == "support.move") move(*place, value("position"));
-      if (action.kind == "element.spring" && candidate.places.size() == 2)
+      if (action.primitive == Primitive::support_move) move(*place, value("position"));
+      if (action.primitive == Primitive::element_spring && candidate.places.size() == 2)
         tie(*place, *find(candidate, 1), value("stiffness"));
-      else if (action.kind == "element.spring")
+      else if (action.primitive == Primitive::element_spring)
         prop(*place, action, value("stiffness"));
-      if (action.kind == "element.oscillator" || action.kind == "element.string")
-        swing(*place, action, value("mass"), 2.0 * std::numbers::pi * value("frequency"));
+      if (has_own_motion(action.primitive)) swing(*place, action, value("mass"), 2.0 * std::numbers::pi * value("frequency"));
     }
   }
   /// Takes the support away and puts its springs up again between the nodes where it stands.
@@ -162,7 +159,7 @@ struct Assembly {
     if (line) add_outer(stiffness, k, pull, pull);
   }
   void swing(const OnePlace& place, const ActionSpec& action, double m, double omega) {
-    const bool string = action.kind == "element.string";
+    const bool string = action.primitive == Primitive::element_string;
     for (Index d = first_direction(place, action); d < place.directions.cols(); ++d) {
       grow(stiffness);
       grow(mass);

@@ -173,9 +173,9 @@ bool can_act(const Candidate& candidate, const ReducedModel& model) {
   const ReducedPlace& place = *candidate.places[0];
   return std::none_of(candidate.hypothesis->actions.begin(), candidate.hypothesis->actions.end(),
                       [&](const ActionSpec& action) {
-                        return (action.kind.ends_with(".stiffness") && place.stiffness.size() == 0) ||
-                               (action.kind == "support.settle" && !can_settle(model, candidate.location)) ||
-                               (action.kind == "scale.mass" && place.mass.size() == 0);
+                        return (scales_stiffness(action.primitive) && place.stiffness.size() == 0) ||
+                               (action.primitive == Primitive::support_settle && !can_settle(model, candidate.location)) ||
+                               (action.primitive == Primitive::scale_mass && place.mass.size() == 0);
                       });
 }
 
@@ -219,14 +219,10 @@ std::vector<Candidate> locations(const Hypothesis& h, const ReducedModel& model,
   } else if (there) {
     for (const ReducedPlace& place : of_model->second) add(h, place.id, found).places = {&place};
   }
-  const bool carries = std::any_of(h.actions.begin(), h.actions.end(), [](const ActionSpec& action) {
-    return action.kind == "mass.add" || action.kind == "element.oscillator";
-  });
+  const bool carries = h.does(Primitive::mass_add) || h.does(Primitive::element_oscillator);
   if (h.set == "nodes" && carries) leave_out_held_nodes(model, found);
   // A spring to the ground stands where the model has none: beside a bearing it is the bearing's stiffness.
-  const bool holds =
-      std::any_of(h.actions.begin(), h.actions.end(), [](const ActionSpec& action) { return action.kind == "element.spring"; });
-  if (h.set == "nodes" && holds)
+  if (h.set == "nodes" && h.does(Primitive::element_spring))
     std::erase_if(found, [](const Candidate& candidate) { return candidate.places[0]->attributes.contains("supported"); });
   if (h.set == "stays")
     for (Candidate& candidate : found) candidate.own = own_frequency(candidate, features);
@@ -268,8 +264,9 @@ constexpr double kChangeStarts[] = {0.02, 0.08, 0.2, 0.45, 0.75, 1.35, 2.2, 5.0,
 /// Whether a cause is a part that is there, or as strong, in one state of the structure and not in another.
 bool is_a_part(const Hypothesis& h) {
   return !h.measurement && std::all_of(h.actions.begin(), h.actions.end(), [](const ActionSpec& action) {
-    static const std::set<std::string> kinds = {"scale", "element", "damper", "stay", "support"};
-    return action.kind == "mass.add" || kinds.contains(action.kind.substr(0, action.kind.find('.')));
+    const ActsOn what = acts_on(action.primitive);
+    return what == ActsOn::part || adds(action.primitive) || what == ActsOn::damper || what == ActsOn::stay ||
+           what == ActsOn::support;
   });
 }
 
@@ -288,16 +285,12 @@ std::vector<AskedStates> states_asked(const Hypothesis& h, const std::vector<std
   for (auto state = states.begin() + 1; state + 1 != states.end(); ++state)
     out.push_back({{state, states.end()}, fmt::format("from state {} on", *state)});
   // What a later state has more of, the first may have lost: a factor says both, what is added needs to be asked twice.
-  const bool adds = std::all_of(h.actions.begin(), h.actions.end(),
-                                [](const ActionSpec& a) { return a.kind == "mass.add" || a.kind.starts_with("element."); });
-  if (adds) {
+  if (std::ranges::all_of(h.actions, adds, &ActionSpec::primitive)) {
     out.push_back({{states.front()}, "state " + states.front()});
     for (auto state = states.begin() + 2; state < states.end(); ++state)
       out.push_back({{states.begin(), state}, "before state " + *state});
   }
-  const bool happens =
-      std::any_of(h.actions.begin(), h.actions.end(), [](const ActionSpec& action) { return action.kind == "support.settle"; });
-  if (!happens) out.emplace_back();  // the model does not err by what happened before the first state
+  if (!h.does(Primitive::support_settle)) out.emplace_back();  // the model does not err by what happened before the first state
   return out;
 }
 

@@ -1,8 +1,11 @@
 #pragma once
 
+#include <algorithm>
 #include <map>
 #include <string>
 #include <vector>
+
+#include "diagnosis/causes/primitive.hpp"
 
 /// The catalogue of causes as data: what a TOML file of workflows/common/hypotheses says, before it meets a model.
 namespace twindeck::diagnosis {
@@ -23,9 +26,9 @@ struct UnknownSpec {
   std::vector<Expression> start;  ///< magnitudes that the screen tries
 };
 
-/// A primitive: what the cause does to the model or to the measurement. `kind` is one of `action_kinds()`.
+/// One thing that a cause does to the model or to the measurement.
 struct ActionSpec {
-  std::string kind;
+  Primitive primitive = Primitive::scale_stiffness;
   std::map<std::string, std::string> text;
   std::map<std::string, Expression> number;
   long line = 0;
@@ -48,10 +51,13 @@ struct Hypothesis {
   Needs needs;
   std::string sentence, remedy;
   std::string file;
+
+  /// Whether one of its actions does this.
+  [[nodiscard]] bool does(Primitive p) const {
+    return std::ranges::any_of(actions, [p](const ActionSpec& action) { return action.primitive == p; });
+  }
 };
 
-/// Primitives with the numbers that each takes.
-[[nodiscard]] const std::map<std::string, std::vector<std::string>>& action_kinds();
 /// Keys of a condition that a cause's needs may name, and what `conditions` may ask of one: "known" for any value, "on" or
 /// "off" for dampers, "above_zero" for a number.
 [[nodiscard]] const std::vector<std::string>& condition_keys();

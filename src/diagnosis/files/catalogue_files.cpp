@@ -208,11 +208,12 @@ class Reader {
   }
   void action(const Table& entries) {
     ActionSpec a;
+    std::string kind;
     for (const auto& e : entries) {
       a.line = a.line == 0 ? e.line : a.line;
       if (e.key == "kind") {
-        a.kind = text(e);
         a.line = e.line;
+        kind = text(e);
       } else if (e.key == "variable")
         a.text[e.key] = condition_key(text(e), e.line, "action.variable");
       else if (e.key == "direction") {
@@ -223,25 +224,28 @@ class Reader {
       } else if (e.key != "at")
         a.number[e.key] = expression(e);
     }
+    a.primitive = primitive(kind, a.line);
     h_.actions.push_back(a);
   }
+  Primitive primitive(const std::string& name, long line) const {
+    if (const auto known = primitive_named(name)) return *known;
+    std::vector<std::string> names;
+    for (const PrimitiveKind& one : primitives()) names.push_back(one.name);
+    std::ranges::sort(names);
+    fail(line, "action.kind", fmt::format("unknown primitive '{}'{}", name, did_you_mean(name, names)),
+         fmt::format("use one of {}", fmt::join(names, ", ")));
+  }
   void check_numbers(const ActionSpec& a) const {
-    const auto& kinds = action_kinds();
-    const auto found = kinds.find(a.kind);
-    if (found == kinds.end()) {
-      std::vector<std::string> names;
-      for (const auto& [name, numbers] : kinds) names.push_back(name);
-      fail(a.line, "action.kind", fmt::format("unknown primitive '{}'{}", a.kind, did_you_mean(a.kind, names)),
-           fmt::format("use one of {}", fmt::join(names, ", ")));
-    }
-    for (const std::string& name : found->second)
+    const PrimitiveKind& kind = kind_of(a.primitive);
+    for (const std::string& name : kind.numbers)
       if (!a.number.contains(name))
-        fail(a.line, "action." + name, fmt::format("is missing; {} takes {}", a.kind, fmt::join(found->second, ", ")), "");
+        fail(a.line, "action." + name, fmt::format("is missing; {} takes {}", kind.name, fmt::join(kind.numbers, ", ")), "");
     for (const auto& number : a.number) {
       const std::string& name = number.first;
       const Expression& value = number.second;
-      if (std::find(found->second.begin(), found->second.end(), name) == found->second.end())
-        fail(value.line, "action." + name, fmt::format("is no number of {}{}", a.kind, did_you_mean(name, found->second)), "");
+      if (std::ranges::find(kind.numbers, name) == kind.numbers.end())
+        fail(value.line, "action." + name, fmt::format("is no number of {}{}", kind.name, did_you_mean(name, kind.numbers)),
+             "");
       if (value.name.starts_with('$') &&
           std::none_of(h_.unknowns.begin(), h_.unknowns.end(), [&](const auto& u) { return "$" + u.name == value.name; }))
         fail(value.line, "action." + name, fmt::format("names '{}', which is no [[parameter]]", value.name), "");

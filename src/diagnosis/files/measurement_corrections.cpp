@@ -13,7 +13,8 @@ namespace {
 bool is_fault_of_channels(const Candidate& candidate) {
   const std::vector<ActionSpec>& actions = candidate.hypothesis->actions;
   return !candidate.channels.empty() && std::all_of(actions.begin(), actions.end(), [](const ActionSpec& action) {
-    return action.kind == "channel.sign" || action.kind == "channel.swap" || action.kind == "channel.gain";
+    return action.primitive == Primitive::channel_sign || action.primitive == Primitive::channel_swap ||
+           action.primitive == Primitive::channel_gain;
   });
 }
 
@@ -22,10 +23,10 @@ records::Correction undo(const ActionSpec& action, const Cause& cause, const std
   const auto name = [&](std::size_t which) { return channels[static_cast<std::size_t>(candidate.channels[which])]; };
   records::Correction correction;
   correction.channel = name(0);
-  if (action.kind == "channel.swap") {
+  if (action.primitive == Primitive::channel_swap) {
     correction.action = records::Correction::Action::exchange;
     correction.with = name(1);
-  } else if (action.kind == "channel.gain") {
+  } else if (action.primitive == Primitive::channel_gain) {
     correction.action = records::Correction::Action::scale;
     correction.factor = 1.0 / candidate.value(action.number.at("factor"), cause.a);
   }

@@ -47,8 +47,9 @@ bool Predictor::ground_of(const Condition& condition, int c, std::vector<GroundS
       if (candidate.location != support.support || !candidate.acts_in(condition)) continue;
       for (const ActionSpec& action : candidate.hypothesis->actions) {
         if (candidate.hypothesis->set == "supports") change += stiffness_change(cause, action, condition);
-        if (action.kind == "support.settle") ground[g].settled_m += candidate.value(action.number.at("rise"), cause.a);
-        if (action.kind == "support.move")
+        if (action.primitive == Primitive::support_settle)
+          ground[g].settled_m += candidate.value(action.number.at("rise"), cause.a);
+        if (action.primitive == Primitive::support_move)
           moved_away = moved_away || support_is_gauged(map_.features(), tests, c, static_cast<int>(g));
       }
     }

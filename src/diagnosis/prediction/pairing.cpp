@@ -76,7 +76,7 @@ const MeasuredMode& Predictor::shaped_like(const MeasuredMode& measured) const {
         shaped = &other;
         break;
       }
-  each_action("modes.exchange", [&](const Candidate& c, const VectorXd&, const ActionSpec&) {
+  each_action(Primitive::modes_exchange, [&](const Candidate& c, const VectorXd&, const ActionSpec&) {
     // The shape under this label belongs to the next mode of the list, and the next one's to it. Not the next in frequency:
     // close modes change places there from one data set to another.
     std::vector<const MeasuredMode*> same;

@@ -42,9 +42,9 @@ void Predictor::read_channels() {
   channel_delay_s_ = VectorXd::Zero(n);
   for (Index c = 0; c < n; ++c) channel_views_[static_cast<std::size_t>(c)] = {{4 * c, 1.0}};
   const auto view = [&](int channel) -> auto& { return channel_views_[static_cast<std::size_t>(channel)]; };
-  each_action("channel.swap",
+  each_action(Primitive::channel_swap,
               [&](const Candidate& c, const VectorXd&, const ActionSpec&) { view(c.channels[0]).swap(view(c.channels[1])); });
-  each_action("channel.rotate", [&](const Candidate& c, const VectorXd& a, const ActionSpec& action) {
+  each_action(Primitive::channel_rotate, [&](const Candidate& c, const VectorXd& a, const ActionSpec& action) {
     const int channel = c.channels[0];
     const double angle = c.value(action.number.at("angle"), a) * std::numbers::pi / 180.0;
     const Eigen::Vector3d d = map_.features().direction[static_cast<std::size_t>(channel)];
@@ -56,12 +56,12 @@ void Predictor::read_channels() {
     for (auto& [row, weight] : view(channel)) weight *= std::cos(angle);
     for (int k = 0; k < 3; ++k) view(channel).emplace_back(4 * channel + 1 + k, std::sin(angle) * beside[k]);
   });
-  each_action("channel.gain", [&](const Candidate& c, const VectorXd& a, const ActionSpec& action) {
+  each_action(Primitive::channel_gain, [&](const Candidate& c, const VectorXd& a, const ActionSpec& action) {
     channel_factor_[c.channels[0]] *= c.value(action.number.at("factor"), a);
   });
-  each_action("channel.sign",
+  each_action(Primitive::channel_sign,
               [&](const Candidate& c, const VectorXd&, const ActionSpec&) { channel_factor_[c.channels[0]] *= -1.0; });
-  each_action("channel.delay", [&](const Candidate& c, const VectorXd& a, const ActionSpec& action) {
+  each_action(Primitive::channel_delay, [&](const Candidate& c, const VectorXd& a, const ActionSpec& action) {
     channel_delay_s_[c.channels[0]] += c.value(action.number.at("delay"), a);
   });
   for (std::size_t j = 0; j < map_.nuisances().size(); ++j) {
@@ -204,19 +204,19 @@ Predictor::AddedToMode Predictor::added_to(const MeasuredMode& measured, const S
   const Complex s = state.modes.s[mode];
   const VectorXcd phi = state.modes.shapes.col(mode);
   AddedToMode added;
-  each_action("frequency.amplitude", condition, [&](const Candidate& c, const VectorXd& a, const ActionSpec& action) {
+  each_action(Primitive::frequency_amplitude, condition, [&](const Candidate& c, const VectorXd& a, const ActionSpec& action) {
     if (!c.mode.empty() && c.mode != measured.label) return;
     const double amplitude = condition.amplitude_m.value_or(0.0);
     added.frequency +=
         std::log(std::max(1.0 + c.value(action.number.at("curvature"), a) * amplitude * amplitude, kLeastFrequencyFactor));
   });
-  each_action("damping.add", condition, [&](const Candidate& c, const VectorXd& a, const ActionSpec& action) {
+  each_action(Primitive::damping_add, condition, [&](const Candidate& c, const VectorXd& a, const ActionSpec& action) {
     if (c.mode.empty() || c.mode == measured.label) added.damping_pct += 100.0 * c.value(action.number.at("ratio"), a);
   });
-  each_action("wind.damping", condition, [&](const Candidate& c, const VectorXd& a, const ActionSpec& action) {
+  each_action(Primitive::wind_damping, condition, [&](const Candidate& c, const VectorXd& a, const ActionSpec& action) {
     added.damping_pct += 100.0 * c.value(action.number.at("rate"), a) * condition.wind_m_s.value_or(0.0);
   });
-  each_action("person.oscillator", condition, [&](const Candidate& c, const VectorXd& a, const ActionSpec& action) {
+  each_action(Primitive::person_oscillator, condition, [&](const Candidate& c, const VectorXd& a, const ActionSpec& action) {
     const double people = condition.people.value_or(0.0);
     if (!(people > 0.0)) return;
     const ReducedPlace& place = *c.places[0];
@@ -264,7 +264,7 @@ void Predictor::differentiate_mode(const MeasuredMode& measured, SolvedState& st
 
 int Predictor::mode_of_shape(const MeasuredMode& measured, std::size_t position) const {
   int shape_of = out_.paired[position];
-  each_action("modes.exchange", [&](const Candidate& c, const VectorXd&, const ActionSpec&) {
+  each_action(Primitive::modes_exchange, [&](const Candidate& c, const VectorXd&, const ActionSpec&) {
     std::vector<std::size_t> same;
     for (std::size_t m = 0; m < map_.modes_.size(); ++m)
       if (map_.modes_[m].condition == measured.condition && map_.modes_[m].real_rows.size() >= 2) same.push_back(m);
@@ -330,10 +330,10 @@ void Predictor::predict_stays() {
           if (with_jacobian_) out_.jacobian(at, static_cast<Index>(j)) = 0.5 * v.deviation;
         }
         const Condition& condition = map_.features().conditions[static_cast<std::size_t>(row.condition)];
-        each_action("stay.frequency", condition, [&](const Candidate& c, const VectorXd& a, const ActionSpec& action) {
+        each_action(Primitive::stay_frequency, condition, [&](const Candidate& c, const VectorXd& a, const ActionSpec& action) {
           if (c.places[0] == &stay) g += std::log(c.value(action.number.at("factor"), a));
         });
-        each_action("stay.pull", condition, [&](const Candidate& c, const VectorXd& a, const ActionSpec& action) {
+        each_action(Primitive::stay_pull, condition, [&](const Candidate& c, const VectorXd& a, const ActionSpec& action) {
           if (c.places[0] == &stay) g += 0.5 * std::log(c.value(action.number.at("factor"), a));  // f ~ sqrt(force)
         });
       }

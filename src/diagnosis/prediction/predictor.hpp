@@ -200,20 +200,20 @@ class Predictor {
   /// What the channels show of each mode of a state, (n_channels × n_modes), gains, signs and delays of causes included.
   [[nodiscard]] const Eigen::MatrixXcd& motion(const SolvedState& state);
   [[nodiscard]] Eigen::VectorXcd shape_at(const std::vector<int>& channels, const SolvedState& state, Eigen::Index mode);
-  /// Numbers of causes whose action has this kind: fn(candidate, coordinates, action).
+  /// Numbers of causes whose action is this primitive: fn(candidate, coordinates, action).
   template <typename Use>
-  void each_action(const std::string& kind, Use use) const {
+  void each_action(Primitive primitive, Use use) const {
     for (const Cause& cause : causes_)
       for (const ActionSpec& action : cause.candidate->hypothesis->actions)
-        if (action.kind == kind) use(*cause.candidate, cause.a, action);
+        if (action.primitive == primitive) use(*cause.candidate, cause.a, action);
   }
   /// The same of causes that act in the state of the structure that a condition is of.
   template <typename Use>
-  void each_action(const std::string& kind, const Condition& condition, Use use) const {
+  void each_action(Primitive primitive, const Condition& condition, Use use) const {
     for (const Cause& cause : causes_) {
       if (!cause.candidate->acts_in(condition)) continue;
       for (const ActionSpec& action : cause.candidate->hypothesis->actions)
-        if (action.kind == kind) use(*cause.candidate, cause.a, action);
+        if (action.primitive == primitive) use(*cause.candidate, cause.a, action);
     }
   }
   /// A mode in a record's variance under wind, beyond white excitation (wind_load.cpp).

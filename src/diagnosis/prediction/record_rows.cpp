@@ -33,7 +33,7 @@ Predictor::ExcitedMode Predictor::excited_mode(int c, SolvedState& state, Index 
   const std::string damping_name = label.empty() ? "" : map_.damping_name(label, c);
   const double own_pct = label.empty() ? kUsualDamping_pct : structural_damping(damping_name);
   double zeta_pct = own_pct + 100.0 * state.modes.damping(mode);
-  each_action("wind.damping", condition, [&](const Candidate& candidate, const VectorXd& a, const ActionSpec& action) {
+  each_action(Primitive::wind_damping, condition, [&](const Candidate& candidate, const VectorXd& a, const ActionSpec& action) {
     zeta_pct += 100.0 * candidate.value(action.number.at("rate"), a) * condition.wind_m_s.value_or(0.0);
   });
   // White excitation: the variance of a mode's acceleration goes with omega / zeta.
@@ -60,10 +60,10 @@ void Predictor::predict_floor(std::size_t r) {
   const Index j = level_of(row.condition, true);
   const Nuisance& level = map_.nuisances_[static_cast<std::size_t>(j)];
   double g = level.deviation * base_.x[j];
-  each_action("channel.floor", [&](const Candidate& candidate, const VectorXd& a, const ActionSpec& action) {
+  each_action(Primitive::channel_floor, [&](const Candidate& candidate, const VectorXd& a, const ActionSpec& action) {
     if (candidate.channels[0] == row.channel) g += std::log(candidate.value(action.number.at("factor"), a));
   });
-  each_action("channel.gain", [&](const Candidate& candidate, const VectorXd& a, const ActionSpec& action) {
+  each_action(Primitive::channel_gain, [&](const Candidate& candidate, const VectorXd& a, const ActionSpec& action) {
     if (candidate.channels[0] == row.channel) g += 2.0 * std::log(candidate.value(action.number.at("factor"), a));
   });
   out_.g[at] = g;
@@ -90,7 +90,7 @@ void Predictor::predict_rms(std::size_t r, SolvedState& state, const std::vector
     slope += mode.weight * square * mode.slope;
   }
   double gain = 1.0;
-  each_action("channel.limit", [&](const Candidate& candidate, const VectorXd& a, const ActionSpec& action) {
+  each_action(Primitive::channel_limit, [&](const Candidate& candidate, const VectorXd& a, const ActionSpec& action) {
     if (candidate.channels[0] == row.channel) gain *= candidate.value(action.number.at("factor"), a);
   });
   const Index j = level_of(row.condition, false);

@@ -33,14 +33,13 @@ Predictor::Acting Predictor::acting_in(const Condition& condition) const {
     for (const ActionSpec& action : cause.candidate->hypothesis->actions) {
       if (!acts(cause, action, condition)) continue;
       any = true;
-      const bool field = action.kind == "field.stiffness" || action.kind == "soften.stiffness";
+      const bool field = action.primitive == Primitive::field_stiffness || action.primitive == Primitive::soften_stiffness;
       const auto named = action.text.find("variable");
       const std::string key = named == action.text.end() ? "temperature_C" : named->second;
       out.temperature = out.temperature || (field && key == "temperature_C");
-      out.amplitude = out.amplitude || (field && key == "amplitude_m") || action.kind == "damper.friction";
+      out.amplitude = out.amplitude || (field && key == "amplitude_m") || action.primitive == Primitive::damper_friction;
       out.wind = out.wind || (field && key == "wind_m_s");
-      alone =
-          alone || action.kind.starts_with("damper.") || action.kind == "element.oscillator" || action.kind == "element.string";
+      alone = alone || acts_on(action.primitive) == ActsOn::damper || has_own_motion(action.primitive);
     }
     if (!any) continue;
     out.before_last = out.causes;

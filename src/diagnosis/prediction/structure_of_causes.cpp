@@ -74,15 +74,16 @@ VectorXd Predictor::sliced(const ReducedDirections& full, Index d, const std::ve
 
 bool Predictor::acts(const Cause& cause, const ActionSpec& action, const Condition& condition) const {
   if (!cause.candidate->acts_in(condition)) return false;
-  const std::string& kind = action.kind;
-  if (kind.starts_with("damper."))
+  const Primitive does = action.primitive;
+  if (acts_on(does) == ActsOn::damper)
     return condition.dampers_on.value_or(cause.candidate->places[0]->attributes.at("always_on") != 0.0);
   const auto value = [&](const char* name) { return cause.candidate->value(action.number.at(name), cause.a); };
-  if (kind == "field.stiffness" || kind == "soften.stiffness") return std::isfinite(variable(action, condition));
-  if (kind == "step.stiffness") return variable(action, condition) < value("below");
-  if (kind == "slip.stiffness") return variable(action, condition) > value("above");
-  if (kind == "mass.per_count") return condition.people.value_or(0.0) > 0.0;
-  return kind.starts_with("scale.") || kind == "mass.add" || kind == "support.move" || kind.starts_with("element.");
+  if (does == Primitive::field_stiffness || does == Primitive::soften_stiffness)
+    return std::isfinite(variable(action, condition));
+  if (does == Primitive::step_stiffness) return variable(action, condition) < value("below");
+  if (does == Primitive::slip_stiffness) return variable(action, condition) > value("above");
+  if (does == Primitive::mass_per_count) return condition.people.value_or(0.0) > 0.0;
+  return changes_structure(does);
 }
 
 /// A damper as its causes leave it.
@@ -103,14 +104,14 @@ Predictor::DamperInUse Predictor::damper_in(const Condition& condition, const Re
     if (here == places.end()) continue;
     for (const ActionSpec& action : cause.candidate->hypothesis->actions) {
       const auto value = [&](const char* name) { return cause.candidate->value(action.number.at(name), cause.a); };
-      if (action.kind == "damper.absent") out.absent = true;
-      if (action.kind == "damper.move") out.direction = {&places.back()->directions, here - places.begin()};
-      if (action.kind == "damper.damping") out.damping *= value("factor");
-      if (action.kind == "damper.series") {
+      if (action.primitive == Primitive::damper_absent) out.absent = true;
+      if (action.primitive == Primitive::damper_move) out.direction = {&places.back()->directions, here - places.begin()};
+      if (action.primitive == Primitive::damper_damping) out.damping *= value("factor");
+      if (action.primitive == Primitive::damper_series) {
         out.stiffness = value("stiffness");
         out.series = true;
       }
-      if (action.kind == "damper.friction") {
+      if (action.primitive == Primitive::damper_friction) {
         out.stiffness = value("stiffness");
         out.threshold = value("threshold");
         out.sliding = true;
@@ -149,14 +150,14 @@ void Predictor::apply_dampers(const Condition& condition, StructureState& state)
 double Predictor::stiffness_change(const Cause& cause, const ActionSpec& action, const Condition& condition) const {
   const Candidate& candidate = *cause.candidate;
   const auto value = [&](const char* name) { return candidate.value(action.number.at(name), cause.a); };
-  const std::string& kind = action.kind;
-  if (kind == "scale.stiffness") return value("factor") - 1.0;
+  const Primitive does = action.primitive;
+  if (does == Primitive::scale_stiffness) return value("factor") - 1.0;
   const double v = variable(action, condition);
-  if (kind == "field.stiffness") return std::isfinite(v) ? value("rate") * (v - value("reference")) : 0.0;
+  if (does == Primitive::field_stiffness) return std::isfinite(v) ? value("rate") * (v - value("reference")) : 0.0;
   // The hyperbola of soils (Hardin and Drnevich, J. Soil Mech. Found. Div. ASCE 98 SM7, 1972).
-  if (kind == "soften.stiffness") return std::isfinite(v) ? -(v / (v + value("half"))) : 0.0;
-  if (kind == "step.stiffness") return v < value("below") ? value("factor") - 1.0 : 0.0;
-  if (kind == "slip.stiffness") return v > value("above") ? value("factor") - 1.0 : 0.0;
+  if (does == Primitive::soften_stiffness) return std::isfinite(v) ? -(v / (v + value("half"))) : 0.0;
+  if (does == Primitive::step_stiffness) return v < value("below") ? value("factor") - 1.0 : 0.0;
+  if (does == Primitive::slip_stiffness) return v > value("above") ? value("factor") - 1.0 : 0.0;
   return 0.0;
 }
 
@@ -166,26 +167,26 @@ void Predictor::apply(const Cause& cause, const ActionSpec& action, const Condit
   const ReducedPlace& place = *candidate.places[0];
   const auto value = [&](const char* name) { return candidate.value(action.number.at(name), cause.a); };
   const Index n = state.stiffness.rows();
-  const std::string& kind = action.kind;
+  const Primitive does = action.primitive;
   if (const double change = stiffness_change(cause, action, condition); change != 0.0) {
     add_change(place, change, false, state);
-  } else if (kind == "scale.mass") {
+  } else if (does == Primitive::scale_mass) {
     add_change(place, value("factor") - 1.0, true, state);
-  } else if (kind == "support.move") {
+  } else if (does == Primitive::support_move) {
     move_support(place, value("position"), state);
-  } else if (kind == "mass.add") {
+  } else if (does == Primitive::mass_add) {
     for (Index d = 0; d < place.directions.cols(); ++d) {
       const VectorXd b = sliced(place.directions, d, columns_, n);
       state.mass += value("mass") * b * b.transpose();
     }
-  } else if (kind == "mass.per_count") {
+  } else if (does == Primitive::mass_per_count) {
     const auto deck = place.attributes.find("deck_mass") != place.attributes.end() ? place.attributes.at("deck_mass")
                                                                                    : place.attributes.at("total_mass");
     const double people = condition.people.value_or(0.0);
     if (people > 0.0) state.mass += people * (value("mass") - value("assumed")) / deck * sliced(place.mass, columns_, n);
-  } else if (kind == "element.spring") {
+  } else if (does == Primitive::element_spring) {
     apply_spring(candidate, action, value("stiffness"), state);
-  } else if (kind == "element.oscillator" || kind == "element.string") {
+  } else if (has_own_motion(does)) {
     apply_body(place, action, value("mass"), 2.0 * std::numbers::pi * value("frequency"), state);
   }
 }
@@ -255,7 +256,7 @@ void Predictor::apply_spring(const Candidate& candidate, const ActionSpec& actio
 
 void Predictor::apply_body(const ReducedPlace& place, const ActionSpec& action, double m, double omega,
                            StructureState& state) const {
-  const bool string = action.kind == "element.string";
+  const bool string = action.primitive == Primitive::element_string;
   // An attached body moves in every direction that the node has, or vertically alone; a cable in the two across its chord.
   for (const Index d : directions_of(place, action)) {
     grow(state);

@@ -102,7 +102,7 @@ TEST(ExtendedMatrices, WhatMatricesCannotSayIsNotHeld) {
                           At("element.spring", {{"stiffness", 1e5}}, "pairs(nodes)", "nodes:a,b", {&a, &b}),
                           At("element.oscillator", {{"mass", 5.0}, {"frequency", 2.0}}, "nodes", "node:a", {&a})}) {
     const ExtendedModel out = matrices.with(cause);
-    EXPECT_EQ(out.holds, std::vector<bool>{false}) << cause.hypothesis.actions[0].kind;
+    EXPECT_EQ(out.holds, std::vector<bool>{false}) << cause.hypothesis.id;
     EXPECT_EQ(out.system.mass_terms.size(), 1U);
     EXPECT_EQ(out.system.stiffness_terms.size(), 3U);
   }

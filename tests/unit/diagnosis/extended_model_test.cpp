@@ -349,7 +349,7 @@ TEST(ExtendedModel, WhatAModelCannotSayIsNotHeld) {
        {At("scale.stiffness", {{"factor", 0.5}}, "global", "global"), At("wind.drag", {{"factor", 0.5}}, "global", "global"),
         At("element.string", {{"mass", 5.0}, {"frequency", 2.0}}, "stays", "stay:S1")}) {
     const ExtendedModel out = line.with({&cause});
-    EXPECT_EQ(out.holds, std::vector<bool>{false}) << cause.hypothesis.actions[0].kind;
+    EXPECT_EQ(out.holds, std::vector<bool>{false}) << cause.hypothesis.id;
     expect_close(model_hertz(*out.elements, 2), Line().hertz());
   }
 }
@@ -357,7 +357,7 @@ TEST(ExtendedModel, WhatAModelCannotSayIsNotHeld) {
 TEST(ExtendedModel, ACauseThatIsHeldInPartIsNotHeldButInTheModel) {
   const InTheLine line;
   At both("wind.drag", {{"factor", 2.0}}, "nodes", "node:20");
-  both.hypothesis.actions.push_back({"mass.add", {}, {{"mass", {50.0, "", 0}}}, 0});
+  both.hypothesis.actions.push_back({diagnosis::Primitive::mass_add, {}, {{"mass", {50.0, "", 0}}}, 0});
   const At mass("mass.add", {{"mass", 70.0}}, "nodes", "node:10");
   const ExtendedModel out = line.with({&both, &mass});
   EXPECT_EQ(out.holds, (std::vector<bool>{false, true}));

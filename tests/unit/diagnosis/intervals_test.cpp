@@ -31,7 +31,7 @@ class Floors {
     }
     hypothesis_.id = "floor";
     hypothesis_.unknowns.push_back({"ratio", "-", {std::exp(low), "", 0}, {std::exp(high), "", 0}, true, {}});
-    hypothesis_.actions.push_back({"channel.floor", {}, {{"factor", {1.0, "$ratio", 0}}}, 0});
+    hypothesis_.actions.push_back({diagnosis::Primitive::channel_floor, {}, {{"factor", {1.0, "$ratio", 0}}}, 0});
     candidate_.hypothesis = &hypothesis_;
     candidate_.location = "channel:c0";
     candidate_.channels = {0};

@@ -34,7 +34,7 @@ class SeenOnFloors {
     Hypothesis& h = *hypotheses_.back();
     h.id = id;
     h.unknowns.push_back({unknown, "-", {}, {}, true, {}});
-    h.actions.push_back({"channel.floor", {}, {{"factor", {1.0, "$" + unknown, 0}}}, 0});
+    h.actions.push_back({diagnosis::Primitive::channel_floor, {}, {{"factor", {1.0, "$" + unknown, 0}}}, 0});
     auto candidate = std::make_unique<Candidate>();
     candidate->hypothesis = &h;
     candidate->location = "channel:c" + std::to_string(channel);

@@ -58,7 +58,7 @@ Hypothesis family(const std::string& id, const std::string& set, const std::stri
   h.id = id;
   h.set = set;
   h.file = id + ".toml";
-  h.actions.push_back({kind, {}, {}, 0});
+  h.actions.push_back({diagnosis::primitive_named(kind).value(), {}, {}, 0});
   return h;
 }
 

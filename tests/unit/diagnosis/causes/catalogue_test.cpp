@@ -24,14 +24,16 @@ TEST(Catalogue, EveryKeyOfAConditionIsReadFromIt) {
   for (const std::string& key : diagnosis::condition_keys()) EXPECT_TRUE(number_of(all, key).has_value()) << key;
 }
 
-TEST(Catalogue, ActionsSayWhatTheyActOn) {
-  // The part before the dot is what the predictor chooses by.
-  const std::set<std::string> known = {"scale",   "field",  "step",      "slip",    "soften", "support", "mass",  "person",
-                                       "element", "damper", "frequency", "damping", "stay",   "channel", "modes", "wind"};
-  for (const auto& [kind, numbers] : diagnosis::action_kinds()) {
-    EXPECT_TRUE(known.contains(kind.substr(0, kind.find('.')))) << kind;
-    EXPECT_EQ(std::set<std::string>(numbers.begin(), numbers.end()).size(), numbers.size()) << kind;
+TEST(Primitives, StandInTheOrderOfTheEnumerationUnderNamesOfTheirOwn) {
+  std::set<std::string> names;
+  for (std::size_t i = 0; i < diagnosis::primitives().size(); ++i) {
+    const diagnosis::PrimitiveKind& kind = diagnosis::primitives()[i];
+    EXPECT_EQ(static_cast<std::size_t>(kind.primitive), i) << kind.name;
+    EXPECT_EQ(diagnosis::primitive_named(kind.name), kind.primitive);
+    EXPECT_TRUE(names.insert(kind.name).second) << kind.name;
+    EXPECT_EQ(std::set<std::string>(kind.numbers.begin(), kind.numbers.end()).size(), kind.numbers.size()) << kind.name;
   }
+  EXPECT_EQ(diagnosis::primitive_named("scale.stifness"), std::nullopt);
 }
 
 TEST(Catalogue, NumbersOfAPlaceAreThoseOfTheListAndThoseOfTheModel) {

@@ -20,7 +20,7 @@ class HandMade {
   HandMade(const std::string& kind, const std::map<std::string, double>& numbers,
            const std::vector<const diagnosis::ReducedPlace*>& places = {}) {
     diagnosis::ActionSpec action;
-    action.kind = kind;
+    action.primitive = diagnosis::primitive_named(kind).value();
     for (const auto& [name, value] : numbers) action.number[name] = {value, "", 0};
     hypothesis.id = kind;
     hypothesis.actions = {action};
