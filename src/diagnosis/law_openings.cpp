@@ -108,9 +108,8 @@ std::vector<OpenMode> modes_that_may_open(const Inference& plain, const FitSyste
     open.rows.insert(open.rows.end(), here.rows.begin(), here.rows.end());
     open.spurious.insert(open.spurious.end(), here.spurious.begin(), here.spurious.end());
   }
-  // Where conditions differ in a state or along a contrast, a shape that changes is for causes to explain.
-  const bool may_be_missing =
-      states_of(map.features()).size() == 1 && contrasts_of(map.features()).empty() && !system.modes.structures.empty();
+  // Where states differ, a shape that changes is for causes to explain.
+  const bool may_be_missing = states_of(map.features()).size() == 1 && !system.modes.structures.empty();
   std::vector<OpenMode> out;
   for (auto& [name, open] : by_name) {
     const auto n = std::ssize(open.rows);
@@ -159,6 +158,7 @@ std::vector<BetterOpening> gains_of_opening(const LawSystem& system, const LawHy
     const double now = log_density(e, covariance) + open.now.log_prior;
     BetterOpening most;
     for (std::size_t o = 0; o < open.openings.size(); ++o) {
+      if (o > 0 && !open.is_open && most.nats <= 0.0) break;  // it is none of the model's to begin with
       const Opening& opening = open.openings[o];
       const double nats = log_density(e, covariance - open.now.covariance + opening.covariance) + opening.log_prior - now;
       if (nats > most.nats) most = {nats, k, o};
