@@ -52,17 +52,16 @@ struct Simulated {
   VectorXd rms_displacement_m;
 };
 
-/// What the step reads.
 struct CampaignInputs {
   ponte::VirtualBridge bridge;
   std::vector<sensors::LayoutPoint> points;
   std::vector<sensors::LayoutChannel> layout;
   std::vector<RecordFile> files;
   VectorXd theta;                          ///< corrected parameters
-  std::optional<ponte::VirtualWind> wind;  ///< where a record is of a wind event
+  std::optional<ponte::VirtualWind> wind;  ///< set if a record is of a wind event
 };
 
-/// What wind events of the virtual bridge rest on: the configuration of step 7 that the settings name, its decks, turbulence.
+/// Data of wind events: the configuration of step 7 that the settings name, its decks, and the turbulence.
 ponte::VirtualWind read_virtual_wind(runner::StepContext& context, const ponte::CampaignSettings& settings) {
   ponte::VirtualWind out;
   AerodynamicsConfig config;
@@ -75,7 +74,7 @@ ponte::VirtualWind read_virtual_wind(runner::StepContext& context, const ponte::
   return out;
 }
 
-/// Names in the settings that the layout and the bridge must have.
+/// Refuses names in the settings that the layout or the bridge does not have.
 void refuse_unknown_names(const ponte::CampaignSettings& settings, const CampaignInputs& read) {
   for (const ponte::RecordSettings& record : settings.records) {
     const auto is_its = [&](const sensors::LayoutPoint& point) { return point.name == record.point; };
@@ -95,7 +94,7 @@ const ponte::ConditionModel& model_of(const ConditionModels& models, const ponte
   return models[static_cast<std::size_t>(&settings.condition(condition) - settings.conditions.data())];
 }
 
-/// Records of the decks, each with random streams of its own, so that threads change nothing.
+/// Records of the decks. Each has random streams of its own, so that the number of threads changes nothing.
 std::vector<Simulated> simulate_decks(const runner::StepContext& context, const ponte::CampaignSettings& settings,
                                       const CampaignInputs& read, const ConditionModels& models) {
   std::vector<Simulated> simulated(settings.records.size());
@@ -112,7 +111,6 @@ std::vector<Simulated> simulate_decks(const runner::StepContext& context, const 
   return simulated;
 }
 
-/// Records of single stays.
 std::vector<ponte::StayRecord> simulate_stays(const runner::StepContext& context, const ponte::CampaignSettings& settings,
                                               const CampaignInputs& read, const fe::Model& bridge) {
   std::vector<ponte::StayRecord> stays;
@@ -127,7 +125,6 @@ std::vector<ponte::StayRecord> simulate_stays(const runner::StepContext& context
   return stays;
 }
 
-/// Position of a condition's longest ambient or wind record.
 std::optional<std::size_t> longest_record(const ponte::CampaignSettings& settings, const std::string& condition) {
   std::optional<std::size_t> longest;
   for (std::size_t i = 0; i < settings.records.size(); ++i) {
@@ -139,7 +136,7 @@ std::optional<std::size_t> longest_record(const ponte::CampaignSettings& setting
   return longest;
 }
 
-/// What is true of each condition's longest record. @return how large the motion was in it, by condition
+/// Writes the true values of each condition's longest record. @return RMS motion in that record, by condition
 std::map<std::string, Amplitude> write_truth(const runner::StepContext& context, const ponte::CampaignSettings& settings,
                                              const CampaignInputs& read, const ConditionModels& models,
                                              const std::vector<Simulated>& simulated,
@@ -174,7 +171,7 @@ Status run_test_campaign(runner::StepContext& context, const ponte::CampaignSett
   const std::vector<Simulated> simulated = simulate_decks(context, settings, read, models);
   const std::vector<ponte::StayRecord> stays = simulate_stays(context, settings, read, bridge.undivided);
 
-  // 3. What is true, and what a reader needs.
+  // 3. True values, and the files that a reader needs.
   const std::map<std::string, Amplitude> amplitudes = write_truth(context, settings, read, models, simulated, stays);
   model_io::write_model(fe::with_parameters(bridge.undivided, read.theta), context.out / "truth" / "model");
   write_campaign_files(settings, read.layout, stays, read.files, amplitudes, context.out);
@@ -184,36 +181,39 @@ Status run_test_campaign(runner::StepContext& context, const ponte::CampaignSett
 void bind_condition(io::FieldTable& t, ponte::ConditionSettings& c) {
   t.path_name("name", c.name, "condition", "name, as records refer to it", true)
       .boolean("dampers", c.dampers, "whether the dampers are fitted")
-      .number("temperature", c.temperature_C, "degC", {-30.0, 60.0}, "of the structure")
-      .number("wind", c.wind_m_s, "m/s", io::non_negative(), "mean wind, for conditions.toml alone")
-      .integer("people", c.people, io::non_negative(), "on the bridge, for conditions.toml alone")
+      .number("temperature", c.temperature_C, "degC", {-30.0, 60.0}, "temperature of the structure")
+      .number("wind", c.wind_m_s, "m/s", io::non_negative(), "mean wind speed; only written to conditions.toml")
+      .integer("people", c.people, io::non_negative(), "number of people on the bridge; only written to conditions.toml")
       .number("force.deck", c.force_deck, "", io::non_negative(),
-              "N/sqrt(Hz), white force on each edge point of the decks, in each of three directions")
-      .number("force.stay", c.force_stay, "", io::non_negative(), "N/sqrt(Hz), the same on each inner node of a stay")
-      .number("force.mast", c.force_mast, "", io::non_negative(), "N/sqrt(Hz), the same on the head of the mast");
+              "white-noise force on each edge point of the decks in each of three directions, N/sqrt(Hz)")
+      .number("force.stay", c.force_stay, "", io::non_negative(),
+              "white-noise force on each inner node of a stay in each of three directions, N/sqrt(Hz)")
+      .number("force.mast", c.force_mast, "", io::non_negative(),
+              "white-noise force on the head of the mast in each of three directions, N/sqrt(Hz)");
 }
 
 void bind_record(io::FieldTable& t, ponte::RecordSettings& r) {
-  t.path_name("setup", r.setup, "setup", "setup of the layout file", true)
+  t.path_name("setup", r.setup, "setup", "setup in the file of setups", true)
       .choice("kind", r.kind, {"ambient", "free_decay", "wind"},
-              "ambient, the decay after a hung mass is let go, or a wind event")
-      .path_name("condition", r.condition, "condition", "condition", true)
-      .number("duration", r.duration_s, "s", {0.0, io::longest_record_s, true}, "length", true)
-      .number("mass", r.mass_kg, "kg", io::non_negative(), "free_decay: mass that is let go")
-      .text("point", r.point, "free_decay: point that it hangs from")
-      .number("speed", r.speed_m_s, "m/s", {0.0, io::highest_wind_m_s}, "wind: mean speed at the decks")
-      .number("direction_deg", r.direction_deg, "", {-360.0, 360.0}, "wind: where it blows to, degrees anticlockwise from +X");
+              "kind of the record: ambient, free decay after the release of a suspended mass, or wind event")
+      .path_name("condition", r.condition, "condition", "name of the condition", true)
+      .number("duration", r.duration_s, "s", {0.0, io::longest_record_s, true}, "length of the record", true)
+      .number("mass", r.mass_kg, "kg", io::non_negative(), "free_decay: suspended mass that is released")
+      .text("point", r.point, "free_decay: point from which the mass is suspended")
+      .number("speed", r.speed_m_s, "m/s", {0.0, io::highest_wind_m_s}, "wind: mean wind speed at the decks")
+      .number("direction_deg", r.direction_deg, "", {-360.0, 360.0},
+              "wind: direction towards which the wind blows, degrees anticlockwise from +X");
 }
 
 void bind_stay(io::FieldTable& t, ponte::StayTest& s) {
   t.path_name("stay", s.stay, "stay", "name of the stay", true)
       .path_name("condition", s.condition, "condition", "condition of the record", true)
-      .number("pull", s.pull_N, "N", io::positive(), "T", true)
+      .number("pull", s.pull_N, "N", io::positive(), "tension T of the stay", true)
       .number("lambda_squared", s.lambda_squared, "", io::non_negative(),
-              "Irvine's parameter; the axial stiffness follows from it", true)
-      .number("damping", s.damping_ratio, "", {0.0, 0.2, true}, "of every mode", true)
+              "Irvine's parameter lambda^2, from which the axial stiffness follows", true)
+      .number("damping", s.damping_ratio, "", {0.0, 0.2, true}, "damping ratio of every mode", true)
       .numbers("imposed", s.imposed_Hz, "Hz", io::positive(),
-               "frequencies of the first in-plane modes, where they are not a string's");
+               "imposed frequencies of the first in-plane modes; empty: those of the cable");
 }
 
 }  // namespace
@@ -237,74 +237,76 @@ runner::Computation read_test_campaign(runner::StepContext& context, const ponte
 io::FieldTable CampaignConfig::fields() {
   io::FieldTable table;
   table.text("bridge", bridge, "definition of the virtual bridge (variant as_built)", true)
-      .text("corrections", corrections, "factors on its parameters, found by --calibrate; empty: none")
-      .text("points", points, "points that sensors may stand on", true)
-      .text("setups", setups, "setups: channels at points", true)
-      .integer("modes", modes, {10.0, 1000.0}, "modes in the basis of the time histories")
+      .text("corrections", corrections, "file of correction factors of the parameters, found by --calibrate; empty: none")
+      .text("points", points, "file of possible sensor points", true)
+      .text("setups", setups, "file of sensor setups: channels at points", true)
+      .integer("modes", modes, {10.0, 1000.0}, "number of modes in the basis of the time histories")
       .integer("zones", zones, {1.0, 50.0},
-               "stretches from mid-length to the ends whose members and masses are corrected on their own")
-      .texts("vibrating_stays", vibrating_stays,
-             "stays that are chains of pieces with modes of their own; the others are springs")
-      .integer("stay_pieces", stay_pieces, {2.0, 100.0}, "pieces of each stay")
-      .number("unevenness", unevenness, "", {0.0, 0.3}, "standard deviation of the slabs' thickness over its nominal value")
-      .number("unevenness_wavelength", unevenness_wavelength_m, "m", io::positive(), "longest wavelength of the unevenness")
-      .number("reference_temperature", reference_temperature_C, "degC", {-30.0, 60.0}, "at which the named frequencies hold")
-      .number("damping.structure", other_damping, "", {0.0, 0.2, true}, "of modes that are not named")
-      .number("damping.stays", stay_damping, "", {0.0, 0.2, true}, "of stays; a mode gets a mean by shares of kinetic energy")
-      .number("damping.corrections", correction_damping, "", {0.0, 1.0, true}, "of the static corrections")
+               "number of zones from mid-length to the ends; each has its own corrections of members and masses")
+      .texts("vibrating_stays", vibrating_stays, "stays divided into elements, with modes of their own; the others are springs")
+      .integer("stay_pieces", stay_pieces, {2.0, 100.0}, "number of elements of each divided stay")
+      .number("unevenness", unevenness, "", {0.0, 0.3}, "relative standard deviation of the thickness of the slabs")
+      .number("unevenness_wavelength", unevenness_wavelength_m, "m", io::positive(), "longest wavelength of that variation")
+      .number("reference_temperature", reference_temperature_C, "degC", {-30.0, 60.0},
+              "temperature at which the frequencies of [[mode]] hold")
+      .number("damping.structure", other_damping, "", {0.0, 0.2, true}, "damping ratio of modes that [[mode]] does not name")
+      .number("damping.stays", stay_damping, "", {0.0, 0.2, true},
+              "damping ratio of stays; a mode gets the mean of structure and stays, weighted by kinetic energy")
+      .number("damping.corrections", correction_damping, "", {0.0, 1.0, true}, "damping ratio of the static correction shapes")
       .tables("mode",
               rows_of(named,
                       [](io::FieldTable& t, ponte::NamedMode& m) {
-                        t.text("name", m.name, "as in the paper's Table 4", true)
-                            .number("frequency", m.frequency_Hz, "Hz", io::positive(), "undamped", true)
-                            .number("damping", m.damping_ratio, "", {0.0, 0.2, true}, "imposed without dampers", true)
-                            .integer("deck_mode", m.deck_mode, {1.0, 1000.0},
-                                     "calibration starts here: position among the uncorrected modes that are not mostly stays",
-                                     true);
+                        t.text("name", m.name, "name in the paper's Table 4", true)
+                            .number("frequency", m.frequency_Hz, "Hz", io::positive(), "undamped natural frequency", true)
+                            .number("damping", m.damping_ratio, "", {0.0, 0.2, true}, "damping ratio without dampers", true)
+                            .integer(
+                                "deck_mode", m.deck_mode, {1.0, 1000.0},
+                                "position among the uncorrected deck modes (not mostly stays), from which calibration starts",
+                                true);
                       }),
-              "a named mode", "name")
+              "a mode with imposed frequency and damping", "name")
       .tables("temperature_effect",
               rows_of(temperature,
                       [](io::FieldTable& t, ponte::TemperatureEffect& e) {
-                        t.text("parameter", e.parameter, "parameter of the definition", true)
+                        t.text("parameter", e.parameter, "parameter of the bridge definition", true)
                             .number("per_K", e.per_K, "", {-0.1, 0.1}, "relative change per kelvin", true);
                       }),
-              "what the temperature changes", "parameter")
+              "effect of temperature on one parameter", "parameter")
       .tables("damper",
               rows_of(dampers,
                       [](io::FieldTable& t, ponte::DamperSettings& d) {
-                        t.text("type", d.type, "type as in the definition", true)
+                        t.text("type", d.type, "type in the bridge definition", true)
                             .number("mount_stiffness", d.mount_stiffness_N_m, "N/m", io::non_negative(),
-                                    "of the anchorage; 0: the damper's own spring")
+                                    "stiffness of the anchorage; 0: that of the damper's own spring")
                             .number("mount_loss_factor", d.mount_loss_factor, "", {0.0, 2.0},
                                     "loss factor of the mount at 1 Hz")
                             .number("friction", d.friction_N, "N", io::non_negative(),
-                                    "force below which the dashpot stands still");
+                                    "friction force below which the dashpot does not move");
                       }),
-              "what the definition does not say about a type of damper", "type")
+              "data of a type of damper that the bridge definition lacks", "type")
       .tables("condition", rows_of(conditions, bind_condition), "a condition", "name")
       .tables("record", rows_of(records, bind_record), "a record")
-      .tables("stay_test", rows_of(stays, bind_stay), "a test of a stay by an accelerometer on it")
+      .tables("stay_test", rows_of(stays, bind_stay), "a test of a stay with an accelerometer")
       .number("stay.duration", stay_duration_s, "s", {0.0, io::longest_record_s, true}, "length of a stay's record")
-      .number("stay.force", stay_force, "", io::positive(), "N/sqrt(Hz), white force on each node of the stay")
-      .number("stay.sensor", stay_sensor, "", {0.01, 0.5}, "place of the accelerometer over the stay's length")
+      .number("stay.force", stay_force, "", io::positive(), "white-noise force on each node of the stay, N/sqrt(Hz)")
+      .number("stay.sensor", stay_sensor, "", {0.01, 0.5}, "position of the accelerometer, relative to the length of the stay")
       .number("logger.rate", rate_Hz, "Hz", {0.0, io::highest_rate_Hz, true}, "sampling rate")
-      .integer("logger.substeps", substeps, {1.0, 100.0}, "steps of integration between two samples")
+      .integer("logger.substeps", substeps, {1.0, 100.0}, "number of integration steps between two samples")
       .integer("logger.second_lag", second_logger_lag, {0.0, 100.0},
-               "steps of integration by which the second logger (second half of the channels) lags")
+               "number of integration steps by which the second logger (second half of the channels) lags")
       .number("logger.noise", noise, "m/s^2", io::non_negative(), "RMS of each sensor's noise")
-      .number("logger.step", converter_step, "m/s^2", io::non_negative(), "step of the converter")
-      .number("logger.range", range, "m/s^2", io::non_negative(), "readings are clipped here; 0: nowhere")
+      .number("logger.step", converter_step, "m/s^2", io::non_negative(), "resolution of the analogue-to-digital converter")
+      .number("logger.range", range, "m/s^2", io::non_negative(), "largest reading; larger ones are clipped; 0: no limit")
       .number("logger.drift", drift, "m/s^2", io::non_negative(), "drift of the zero over a record")
-      .text("wind.aerodynamics", wind_aerodynamics, "wind events: configuration of step 7 whose decks and data hold")
+      .text("wind.aerodynamics", wind_aerodynamics, "wind events: configuration of step 7, which gives decks and their data")
       .text("wind.turbulence_file", wind_turbulence_file, "wind events: file of turbulence sets")
-      .text("wind.turbulence_set", wind_turbulence_set, "wind events: which of them")
+      .text("wind.turbulence_set", wind_turbulence_set, "wind events: name of the set in wind.turbulence_file")
       .choice("wind.model", wind_model, aero::published_yaw_rule_names(),
-              "wind events: model of Table 11 that holds on the virtual bridge")
+              "wind events: model of Table 11 on the virtual bridge")
       .number("wind.height", wind_height_m, "m", io::positive(), "wind events: height of the decks above ground")
       .number("wind.level", wind_level, "", io::positive(), "wind events: level of the synthetic aerodynamic set")
       .number("calibration.spread", correction_spread, "", io::positive(),
-              "standard deviation of the logarithm of a correction: how dear it is")
+              "prior standard deviation of the logarithm of a correction factor; smaller values penalise corrections more")
       .number("calibration.frequency", frequency_weight, "", io::positive(),
               "relative standard deviation of the named frequencies in the fit");
   return table;

@@ -37,12 +37,11 @@
 namespace twindeck::steps {
 namespace {
 
-/// What a diagnosis reads, before anything is solved.
 struct DiagnosisFiles {
   std::filesystem::path folder;                ///< of the features
   diagnosis::FeatureSet features;              ///< the rows in use
   std::vector<diagnosis::Row> stay_rows;       ///< all frequencies of stays, in use or not
-  std::vector<records::Correction> corrected;  ///< what of the features --correct has put right
+  std::vector<records::Correction> corrected;  ///< corrections that --correct made to the features
   std::vector<matching::Channel> channels;
   std::vector<diagnosis::Claim> claims;
   std::vector<diagnosis::Hypothesis> catalogue;
@@ -50,24 +49,22 @@ struct DiagnosisFiles {
   std::vector<diagnosis::DamperMove> moves;
 };
 
-/// Everything that a diagnosis works on.
 struct DiagnosisInputs {
   std::shared_ptr<diagnosis::DiagnosedModel> model;
   diagnosis::Structure structure;  ///< borrows from `model`
   diagnosis::Places places;
   std::unique_ptr<diagnosis::ReducedModel> reduced;
-  long basis_modes = 0;  ///< that `reduced` was asked for
+  long basis_modes = 0;  ///< number of modes that `reduced` was asked for
   diagnosis::FeatureSet features;
-  std::vector<records::Correction> corrected;  ///< what of the features --correct has put right
+  std::vector<records::Correction> corrected;  ///< corrections that --correct made to the features
   std::vector<diagnosis::Hypothesis> catalogue;
-  std::vector<diagnosis::Finding> account;             ///< what claims and rows say before any odds
-  diagnosis::LoadTestFiles load_tests;                 ///< where loads and gauges stand
-  std::optional<diagnosis::BarStaysEffect> bar_stays;  ///< where stays swing that the model has as bars
-  /// What the causes are put into: `model`, with the stays that swing as cables.
+  std::vector<diagnosis::Finding> account;             ///< findings from claims and rows, without odds
+  diagnosis::LoadTestFiles load_tests;                 ///< files of the load tests
+  std::optional<diagnosis::BarStaysEffect> bar_stays;  ///< set if stays that the model has as bars swing
+  /// The model that the causes are put into: `model`, with swinging stays as cables.
   std::shared_ptr<const diagnosis::DiagnosedModel> extended;
 };
 
-/// Measured frequencies of each condition.
 std::vector<dynamics::MeasuredFrequencies> frequencies_of(const diagnosis::FeatureSet& features) {
   std::vector<dynamics::MeasuredFrequencies> conditions(features.conditions.size());
   for (const diagnosis::Row& row : features.rows) {
@@ -81,13 +78,13 @@ std::vector<dynamics::MeasuredFrequencies> frequencies_of(const diagnosis::Featu
   return conditions;
 }
 
-constexpr double kAlike = 0.6;  ///< MAC where least_mac says nothing: below it two shapes share less than they do not
+constexpr double kAlike = 0.6;  ///< [-] default MAC if least_mac is 0: less alike shapes are different modes
 
-/// Where the highest measured frequency is so far up that no basis holds the modes below it.
+/// Refuses a highest measured frequency below which the model has more modes than a basis can hold.
 void refuse_endless_basis(const diagnosis::BasisModes& basis, const dynamics::LoadedModel& loaded,
                           const diagnosis::FeatureSet& features, runner::StepContext& context) {
   if (basis.enough) return;
-  warn_of_unit_slips(context, loaded, basis.frequency_Hz, frequencies_of(features));  // which may be why
+  warn_of_unit_slips(context, loaded, basis.frequency_Hz, frequencies_of(features));  // a slip of units may be the reason
   throw InputError(
       {loaded.source, 0, ""},
       fmt::format("has more than {} modes below {:.4g} Hz, the reach of the basis for the highest measured frequency",
@@ -96,7 +93,7 @@ void refuse_endless_basis(const diagnosis::BasisModes& basis, const dynamics::Lo
       "themselves out of the model");
 }
 
-/// Places and reduced model of the model as it is now.
+/// Makes the locations and the reduced model of the current model.
 void reduce(const diagnosis::PlaceOptions& place_options, const diagnosis::BasisModes& basis, DiagnosisInputs& inputs) {
   const diagnosis::Structure& structure = inputs.structure;
   inputs.places = diagnosis::find_places(structure, place_options);
@@ -104,7 +101,8 @@ void reduce(const diagnosis::PlaceOptions& place_options, const diagnosis::Basis
       diagnosis::load_tests_in_use(*inputs.model, structure, inputs.places, inputs.features, inputs.load_tests);
   diagnosis::ReductionOptions reduction;
   reduction.modes = basis.modes;
-  // Fits end far from where the basis is made (full_model): parameters on bounds, element scatter off by several deviations.
+  // Fits can end far from the values at which the basis is made: parameters on bounds, element scatter off by several
+  // deviations.
   reduction.parameter_vectors = 60;
   reduction.least_correction = 2.5e-4;
   reduction.element_change = 0.1;
@@ -115,7 +113,7 @@ void reduce(const diagnosis::PlaceOptions& place_options, const diagnosis::Basis
   inputs.reduced = std::make_unique<diagnosis::ReducedModel>(structure, inputs.places, reduction);
 }
 
-/// A reduced model that predicts modes: of all places only the dampers, which change them, are there.
+/// A reduced model that predicts modes. Its only locations are the dampers, because they change the modes.
 diagnosis::ReducedModel reduced_for_modes(const diagnosis::DiagnosedModel& model, int modes, int corrected) {
   const diagnosis::Structure structure = model.structure();
   diagnosis::Places places = diagnosis::find_places(structure, {});
@@ -124,9 +122,9 @@ diagnosis::ReducedModel reduced_for_modes(const diagnosis::DiagnosedModel& model
   return {structure, places, reduction};
 }
 
-/// Whether measured modes are those of stays that swing. The model that is searched keeps its bars: the modes that only cables
-/// explain are left out of the search, and the extended model has the cables (decision 0014). Nothing where no more modes are
-/// explained with cables, dampers and all conditions included.
+/// Finds measured modes that are modes of swinging stays. The searched model keeps its bars. Modes that only cables explain are
+/// left out of the search, and the extended model gets the cables (decision 0014). Nothing is changed unless cables explain
+/// more modes, with dampers and all conditions included.
 void swing_stays(const DiagnosisConfig& config, const std::vector<diagnosis::Row>& stay_rows, DiagnosisInputs& inputs) {
   const diagnosis::BarStaysOptions options{config.least_mac > 0.0 ? config.least_mac : kAlike,
                                            2 * static_cast<int>(config.modes)};
@@ -148,7 +146,7 @@ std::filesystem::path catalogue_folder(const DiagnosisConfig& config, const runn
   if (const auto given = context.flag("catalogue")) return *given;
   if (!config.catalogue.empty()) return config.catalogue;
   const std::filesystem::path catalogue = "workflows/common/hypotheses";
-  if (!context.study.empty()) {  // of the tree that the study lies in
+  if (!context.study.empty()) {  // beside the study's folder
     const auto beside = context.study.parent_path() / "common/hypotheses";
     if (!std::filesystem::is_directory(catalogue) && std::filesystem::is_directory(beside)) return beside;
   }
@@ -203,7 +201,7 @@ void refuse_unknown_names(const DiagnosisConfig& config, const DiagnosisFiles& f
                                         {files.model.source, files.folder / "channels.csv"});
   diagnosis::refuse_unknown_stays(files.features, files.model.fe_model(), files.folder);
   refuse_unplaced_channels(diagnosis::channels_at_points(files.channels), files.model, config.sensor_tolerance_m);
-  // How many modes the basis has is known once the model is reduced.
+  // The number of modes in the basis is known only after the reduction; the pairs are checked against it there.
   static_cast<void>(
       matching::read_pairs(config.pairs, std::numeric_limits<Eigen::Index>::max(), {"", 0, "pairs"}, "raise modes"));
   if (config.hold_out.empty()) return;
@@ -235,7 +233,7 @@ constexpr Retired retired[] = {
 };
 
 /// Positions of the computed modes that the configuration gives to measured ones, by the mode's name in rows.csv.
-/// @param unmeasured  gets those that no row names
+/// @param unmeasured  gets the measured modes of the pairs that no row names
 std::map<std::string, int> bound_modes(const DiagnosisConfig& config, const DiagnosisInputs& inputs,
                                        std::vector<std::string>* unmeasured = nullptr) {
   std::map<std::string, int> bound;
@@ -249,7 +247,7 @@ std::map<std::string, int> bound_modes(const DiagnosisConfig& config, const Diag
   return bound;
 }
 
-/// The model reduced, with its places, and the rows that it can be compared with.
+/// The reduced model with its locations, and the rows that it is compared with.
 DiagnosisInputs prepare_diagnosis(const DiagnosisConfig& config, const DiagnosisFiles& files, runner::StepContext& context) {
   DiagnosisInputs inputs;
   inputs.features = files.features;
@@ -318,7 +316,6 @@ void say_form(const diagnosis::FormReport& form, runner::StepContext& context) {
   for (const std::string& warning : form.warnings) context.say("  warning: " + warning);
 }
 
-/// The last lines of the step.
 void say_sentences(diagnosis::Verdict verdict, const diagnosis::Sentences& sentences, runner::StepContext& context) {
   context.say("verdict: " + name_of(verdict));
   context.say("  what is wrong: " + sentences.what);
@@ -333,7 +330,7 @@ void say_modes_explained(const diagnosis::Diagnosis& result, runner::StepContext
     context.say(fmt::format("  modes explained: {} -> {} of {} measured", gain->before, gain->after, gain->measured));
 }
 
-/// The model of the last state; what acts in others alone is none of it.
+/// Writes the model of the last state, without causes that act only in other states.
 void write_extension(const DiagnosisInputs& inputs, const diagnosis::Diagnosis& result, runner::StepContext& context) {
   const std::string state = diagnosis::last_state(inputs.features);
   const bool several = diagnosis::states_of(inputs.features).size() > 1;
@@ -424,55 +421,60 @@ runner::Computation read_diagnosis(const DiagnosisConfig& config, runner::StepCo
 io::FieldTable DiagnosisConfig::fields() {
   io::FieldTable t;
   t.text("catalogue", catalogue, "folder of hypotheses (default: workflows/common/hypotheses)")
-      .text("damper_places", damper_places,
-            "CSV of places where dampers might stand instead: alternative, damper, x_m, y_m, z_m")
+      .text("damper_places", damper_places, "CSV of alternative damper places: alternative, damper, x_m, y_m, z_m")
       .text("further_causes", further_causes,
-            "folder of causes beside the catalogue: a study's own, or a family at other places")
-      .texts("pairs", pairs, "measured and computed modes that belong together where no shape tells, \"7X-8N\"")
-      .texts("left_out", rows.left_out, "types of rows that are not used, such as shape_imag, or modes, \"mode:8\"")
-      .number("least_mac", least_mac, "", {0.0, 1.0},
-              "least MAC of a measured mode with one of the model; others are left out and reported. 0 keeps all")
+            "folder of causes added to the catalogue: the study's own, or a family at other places")
+      .texts("pairs", pairs, "pairs of measured and computed modes without a measured shape, \"7X-8N\"")
+      .texts("left_out", rows.left_out, "rows that are not used: types such as shape_imag, or modes such as \"mode:8\"")
+      .number(
+          "least_mac", least_mac, "", {0.0, 1.0},
+          "least MAC of a measured mode with any computed mode; modes below it are left out and reported; 0: none is left out")
       .boolean("names_alike", rows.names_alike,
-               "give a mode one name in all conditions, by likeness of shapes (identifications number each condition from 1)")
-      .number("highest_frequency", rows.highest_Hz, "Hz", io::non_negative(), "modes above it are left out; 0: none is")
+               "gives a mode the same name in all conditions, by MAC (each identification numbers its modes from 1)")
+      .number("highest_frequency", rows.highest_Hz, "Hz", io::non_negative(), "modes above this are left out; 0: no limit")
       .texts("hold_out", hold_out,
-             "rows kept from the fit: \"condition\", \"condition/mode\", \"condition/mode/type\" or "
-             "\"condition/every_second\", \"none\"; empty: marks, else the rule")
+             "rows held out of the fit: \"condition\", \"condition/mode\", \"condition/mode/type\", \"condition/every_second\" "
+             "or \"none\"; empty: the rows that the file marks; without marks, modes are left out in turn")
       .integer("most_causes", most_causes, {0, 3},
-               "largest number of causes in one explanation. 0: causes are told and not put into the model")
+               "largest number of causes in one explanation; 0: causes are reported but not added to the model")
       .integer("modes", modes, {4, 200},
-               "least number of modes in the reduced basis; it has more where the highest measured frequency asks for them")
+               "least number of modes in the reduced basis; raised if the highest measured frequency requires more")
       .integer("zones", zones, {0, 10000},
-               "zones that the elements are gathered in; 0: eight a wavelength of the highest measured mode, at least 24")
+               "number of zones of elements; 0: eight per wavelength of the highest measured mode, at least 24")
       .integer("nodes", nodes, {0, 10000},
-               "nodes at which masses, oscillators and ties are looked for; 0: eight a wavelength, at least 24")
+               "number of nodes at which added masses, oscillators and ties are searched for; 0: eight per wavelength of the "
+               "highest measured mode, at least 24")
       .number("sensor_tolerance", sensor_tolerance_m, "m", io::positive(),
-              "farthest that a sensor may lie from the node that stands for it")
+              "largest distance between a sensor and its nearest node")
       .choice("stays", stays, {"auto", "as_modelled"},
-              "auto: stays that the model has as bars become cables in several elements where that explains measured modes "
-              "which the model resembles nowhere; their forces come from stay_frequency_Hz rows (left_out keeps these from the "
-              "fit, not from here), else from the model; as_modelled: they stay bars")
+              "auto: a stay modelled as one bar becomes a cable of several elements if measured modes that match no computed "
+              "mode are then explained; its force comes from rows of stay_frequency_Hz (even if left_out names them), else "
+              "from the model. as_modelled: the model is not changed")
       .number("scatter.element_stiffness", scatter.element_stiffness, "", io::non_negative(),
-              "relative deviation of an element's stiffness")
-      .number("scatter.element_mass", scatter.element_mass, "", io::non_negative(), "of an element's mass")
-      .number("scatter.node_mass", scatter.node_mass, "", io::non_negative(), "of the mass at a node of a matrix model")
-      .number("scatter.stay_stiffness", scatter.stay_stiffness, "", io::non_negative(), "of a stay's stiffness")
-      .number("scatter.stay_pull", scatter.stay_pull, "", io::non_negative(), "of a stay's pull")
+              "relative standard deviation of the stiffness of an element")
+      .number("scatter.element_mass", scatter.element_mass, "", io::non_negative(),
+              "relative standard deviation of the mass of an element")
+      .number("scatter.node_mass", scatter.node_mass, "", io::non_negative(),
+              "relative standard deviation of the mass at a node of a matrix model")
+      .number("scatter.stay_stiffness", scatter.stay_stiffness, "", io::non_negative(),
+              "relative standard deviation of the stiffness of a stay")
+      .number("scatter.stay_pull", scatter.stay_pull, "", io::non_negative(), "relative standard deviation of a stay force")
       .number("scatter.support_stiffness", scatter.support_stiffness, "", io::non_negative(),
-              "of the stiffness of each bearing and foundation")
-      .number("scatter.gain", scatter.gain, "", io::non_negative(), "of a channel's gain")
+              "relative standard deviation of the stiffness of a bearing or foundation")
+      .number("scatter.gain", scatter.gain, "", io::non_negative(), "relative standard deviation of the gain of a channel")
       .number("scatter.frequency_floor", scatter.frequency_floor, "", io::non_negative(),
-              "least relative deviation of a frequency")
+              "least relative standard deviation of a measured frequency")
       .number("scatter.damping_floor", scatter.damping_floor, "", io::non_negative(),
-              "least relative deviation of a damping ratio")
+              "least relative standard deviation of a measured damping ratio")
       .number("scatter.shape_floor", scatter.shape_floor, "", io::non_negative(),
-              "least deviation of a shape, of its largest value")
+              "least standard deviation of a measured shape component, relative to the largest")
       .number("scatter.load_model", scatter.load_model, "", io::non_negative(),
-              "of RMS values, for what a simple load model leaves open")
+              "relative standard deviation of RMS values, for the uncertainty of a simple load model")
       .boolean("scatter.damping_by_dampers", scatter.damping_by_dampers,
-               "structural damping is another unknown where dampers are on (stuck ones rub)")
+               "separate structural damping for the conditions with dampers, because stuck dampers dissipate by friction")
       .number("scatter.model_form", scatter.model_form, "", io::non_negative(),
-              "of a frequency, alike in all conditions of a mode: what a model that is known to be off leaves open");
+              "relative standard deviation of the model's error in frequency, the same in all conditions of a mode; for a "
+              "model that is known to be inaccurate");
   for (const Retired& key : retired) t.retired(key.name, key.problem, key.mend);
   return t;
 }

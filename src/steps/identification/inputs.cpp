@@ -26,7 +26,7 @@ std::filesystem::path default_campaign(const runner::StepContext& context) {
   return simulated;
 }
 
-/// Registered are the lists and records, and nothing else that lies there.
+/// Registers the lists and the records as inputs; other files of the folder are ignored.
 records::Campaign read_lists(runner::StepContext& context) {
   const auto folder = context.campaign ? *context.campaign : default_campaign(context);
   if (!std::filesystem::exists(folder)) context.input(folder);
@@ -39,7 +39,7 @@ records::Campaign read_lists(runner::StepContext& context) {
   return campaign;
 }
 
-/// Goes on without what cannot be used, and keeps why.
+/// Collects records that cannot be used, with the reasons.
 class LeftOut {
  public:
   template <typename Read>
@@ -75,8 +75,8 @@ std::vector<identification::Conditioned> read_kind(const records::Campaign& camp
   return records;
 }
 
-/// Kind of the records whose modes are those of the structure: as configured. A campaign without ambient records has its free
-/// decays, or else its stays, to show.
+/// Kind of the records that give the modes of the structure: as configured. For a campaign without ambient records these are
+/// its free decays, otherwise its stays.
 std::string main_kind(const records::Campaign& campaign, const identification::IdentificationSettings& config) {
   const auto has = [&](const std::string& kind) {
     return std::ranges::any_of(campaign.records, [&](const records::CampaignRecord& record) { return record.kind == kind; });
@@ -174,97 +174,102 @@ io::FieldTable IdentificationConfig::fields() {
   io::FieldTable table;
   table.text("setup", setup, "setup whose records are used; empty: all, merged over the reference channels")
       .texts("setups", setups, "setups that are merged; empty: all, or the one named by `setup`")
-      .text("condition", condition, "condition whose records are used; empty: all, the first one's modes in modes.csv")
+      .text("condition", condition, "condition whose records are used; empty: all, and modes.csv holds the modes of the first")
       .text("kind", kind,
-            "kind of record: ambient, wind, earthquake or another whose excitation is broad; free_decay: by ERA; stay: stays "
-            "alone")
+            "kind of the records: ambient, wind, earthquake or another with broadband excitation; free_decay: identified by "
+            "ERA; stay: stays only")
       .choice("method", method, {"covariance", "data"},
-              "subspace identification from correlations or from the data (inputs, where measured, are used)")
-      .choice("selection", selection, {"automatic", "paper"}, "modes by the automatic rule, or by paper Eqs. (3)-(4)")
-      .choice("merge", merge, {"poser", "preger"}, "setups merged after or before identification")
+              "subspace identification from correlations or from the data; measured inputs are used")
+      .choice("selection", selection, {"automatic", "paper"}, "rule that selects the modes: automatic, or paper Eqs. (3)-(4)")
+      .choice("merge", merge, {"poser", "preger"}, "setups are merged after identification (poser) or before it (preger)")
       .texts("references", references, "reference channels; empty: those marked in channels.csv, or all")
       .texts("exclude", exclude, "channels that are left out")
       .text("keep", keep,
-            "CSV file of poles that a person kept or deleted (setup,order,frequency_Hz,damping_ratio_pct,action), as the "
+            "CSV file of the poles that a person kept or deleted (setup,order,frequency_Hz,damping_ratio_pct,action); the "
             "report's stabilisation diagram writes it; empty: none")
       .number("imported_std_pct", imported_std_pct, "", {0.0, 50.0},
-              "standard deviation in per cent that frequencies of a universal file (--modes FILE) are given; 0: none")
-      .integer("longest_gap", longest_gap, io::non_negative(),
-               "samples missing in a row that may be bridged by a straight line")
+              "standard deviation in per cent that is assumed for the frequencies of a universal file (--modes FILE); 0: none")
+      .integer("longest_gap", longest_gap, io::non_negative(), "most missing samples in a row that a straight line replaces")
       .number("largest_clipping", largest_clipping, "", {0.0, 1.0},
-              "share of a channel's samples that may stand at its largest or smallest value, three or more in a row or far "
-              "more than at the next values")
+              "largest share of clipped samples in a channel: samples at its largest or smallest value, three or more in a row "
+              "or far more often than the next values")
       .number("largest_lone", largest_lone, "", {10.0, 1e300},
-              "robust standard deviations from the median that a sample may stand off alone, between quiet neighbours")
+              "largest distance of a single sample from the median between quiet neighbours, in robust standard deviations")
       .integer("decimation", decimation, {0.0, 1000.0},
-               "every so many-th sample is kept, after a zero-phase low-pass; 0: chosen from the highest peak of the spectrum")
-      .number("band.lowest", lowest_Hz, "Hz", io::non_negative(), "poles below are left out")
+               "factor by which the sampling rate is reduced, after a zero-phase low-pass filter; 0: chosen from the highest "
+               "peak of the spectrum")
+      .number("band.lowest", lowest_Hz, "Hz", io::non_negative(), "poles below this frequency are left out")
       .number("band.highest", highest_Hz, "Hz", io::non_negative(),
-              "poles above are left out; 0: up to where the sensors move together, at most 0.8 of the Nyquist frequency, or "
-              "all of it where a record as it is has a peak above")
-      .integer("block_rows", block_rows, {0.0, 500.0},
-               "block rows of the Toeplitz or Hankel matrix; twice as many lags are used; 0: three periods of the lowest peak")
+              "poles above this frequency are left out; 0: the limit up to which the sensors move together, at most 0.8 of the "
+              "Nyquist frequency, or all of it if an undecimated record has a peak above")
+      .integer(
+          "block_rows", block_rows, {0.0, 500.0},
+          "block rows of the Toeplitz or Hankel matrix, which uses twice as many lags; 0: three periods of the lowest peak")
       .integer("minimum_order", minimum_order, {2.0, 500.0}, "smallest model order")
       .integer("maximum_order", maximum_order, {2.0, 500.0}, "largest model order")
-      .integer("order_step", order_step, {1.0, 100.0}, "step of the order")
-      .integer("blocks", blocks, {2.0, 1000.0}, "blocks a record is cut into for the standard deviations")
+      .integer("order_step", order_step, {1.0, 100.0}, "step between model orders")
+      .integer("blocks", blocks, {2.0, 1000.0}, "blocks of a record, whose scatter gives the standard deviations")
       .integer("welch_segment", welch_segment, {8.0, 1e7}, "samples of a Welch segment, after decimation")
-      .number("stable.frequency", criteria.frequency, "", io::positive(), "paper 3.1: relative change of a stable frequency")
+      .number("stable.frequency", criteria.frequency, "", io::positive(),
+              "paper 3.1: largest relative change of a stable frequency between orders")
       .number("stable.damping", criteria.damping, "", io::positive(),
-              "paper 3.1: change of a stable damping ratio (0.01 = 1 % of critical)")
-      .number("stable.mac", criteria.mac, "", {0.0, 1.0}, "paper 3.1: MAC of a stable shape")
+              "paper 3.1: largest change of a stable damping ratio between orders (0.01 = 1 % of critical)")
+      .number("stable.mac", criteria.mac, "", {0.0, 1.0}, "paper 3.1: least MAC of a stable shape between orders")
       .number("largest_damping", largest_damping, "", {0.0, 1.0, true}, "poles with a larger damping ratio are left out")
-      .number("cleaning.mac", cleaning.mac, "", {0.0, 1.0}, "paper Eq. (3): MAC of shapes that count as the same")
+      .number("cleaning.mac", cleaning.mac, "", {0.0, 1.0}, "paper Eq. (3): least MAC of two shapes that count as the same")
       .number("cleaning.frequency", cleaning.frequency, "", io::positive(),
-              "relative distance of frequencies that may count as the same")
+              "largest relative distance of two frequencies that count as the same")
       .number("cleaning.recursion", cleaning.recursion, "", io::non_negative(),
-              "paper Eq. (4): index of recursion that a mode exceeds")
+              "paper Eq. (4): least recursion index of a mode")
       .number("cleaning.share", cleaning.share, "", {0.0, 1.0},
-              "share of the orders that a mode is found at, from its first; 0: paper's rule")
+              "least share of orders with the mode, counted from its first order; 0: the paper's rule")
       .number("cleaning.deviation", largest_deviation, "", io::non_negative(),
-              "largest relative standard deviation of a mode's frequency; automatic rule: or what the record's length allows; "
+              "largest relative standard deviation of a mode's frequency; the automatic rule allows more for a short record; "
               "0: any (the paper's rule as printed)")
       .number("automatic.collinearity", automatic.collinearity, "", {0.0, 1.0},
               "automatic rule: smallest modal phase collinearity")
       .number("automatic.share", automatic.share, "", {0.0, 1.0},
-              "automatic rule: share of the orders from a mode's first that it is found at")
+              "automatic rule: least share of orders with the mode, counted from its first order")
       .number("automatic.law_ratio", largest_law_ratio, "", io::non_negative(),
-              "automatic rule: largest standard deviation of a frequency in units of the least that the record's length "
-              "allows; 0: any")
+              "automatic rule: largest standard deviation of a frequency, as a multiple of the least one possible with the "
+              "record's length; 0: any")
       .number("automatic.shape_deviation", largest_shape_deviation, "", io::non_negative(),
               "automatic rule: largest standard deviation of a mode shape of unit norm; 0: any")
-      .integer("decay.decimation", decay_decimation, {0.0, 1000.0}, "free decays: as decimation; 0: the same, or chosen")
+      .integer("decay.decimation", decay_decimation, {0.0, 1000.0}, "free decays: factor of decimation; 0: as decimation")
       .integer("decay.block_rows", decay_block_rows, {0.0, 1000.0},
                "free decays: block rows of the Hankel matrix; 0: half a period of the lowest peak")
       .integer("decay.maximum_order", decay_maximum_order, {2.0, 500.0}, "free decays: largest model order")
       .number("decay.start", decay_start_s, "s", {0.0, io::longest_record_s},
-              "free decays are read from this time after the release on")
+              "free decays: time after the release at which reading begins")
       .number("decay.length", decay_length_s, "s", {0.0, io::longest_record_s},
-              "length that is read; 0: until the motion is down to what is left at the end of the record")
+              "free decays: length that is read; 0: until the motion has decayed to the level at the end of the record")
       .number("decay.band", decay_band_Hz, "Hz", io::positive(),
-              "half width of the filter that isolates a mode for frequency and damping by amplitude")
-      .integer("decay.bands", decay_bands, {1.0, 50.0}, "bands of amplitude")
-      .integer("stay.decimation", stay_decimation, {0.0, 1000.0}, "stays: as decimation; 0: chosen")
+              "free decays: half width of the filter that isolates a mode, for frequency and damping against amplitude")
+      .integer("decay.bands", decay_bands, {1.0, 50.0}, "free decays: number of amplitude bands")
+      .integer("stay.decimation", stay_decimation, {0.0, 1000.0}, "stays: factor of decimation; 0: chosen")
       .integer("stay.block_rows", stay_block_rows, {0.0, 1000.0}, "stays: block rows; 0: chosen")
       .integer("stay.maximum_order", stay_maximum_order, {2.0, 500.0}, "stays: largest model order")
-      .integer("stay.harmonics", stay_harmonics, {2.0, 40.0}, "stays: harmonics that are used at most")
+      .integer("stay.harmonics", stay_harmonics, {2.0, 40.0}, "stays: largest number of harmonics that are used")
       .number("stay.lowest", stay_lowest_Hz, "Hz", io::non_negative(),
-              "stays: smallest frequency of the taut string that is thought of")
-      .number("stay.highest", stay_highest_Hz, "Hz", io::non_negative(), "stays: largest; 0: any")
-      .number("stay.level", stay_level, "", {0.5, 0.9999}, "probability of the intervals of tension and sag")
-      .tables("stay_length",
-              rows_of(stays,
-                      [](io::FieldTable& entry, identification::StaySettings& stay) {
-                        entry.text("name", stay.name, "setup, point or channel of the stay's records", true)
-                            .number("length", stay.length_m, "m", io::positive(), "free length", true)
-                            .choice("ends", stay.ends, {"unknown", "hinged", "clamped"},
-                                    "how the ends are held; unknown: both are compared")
-                            .number("bending_stiffness", stay.bending_stiffness_N_m2, "N m^2", io::non_negative(),
-                                    "EI of the section, known to ten per cent; 0: fitted to the harmonics")
-                            .number("mass", stay.mass_kg_m, "kg/m", io::non_negative(),
-                                    "mass per length; wanted with bending_stiffness");
-                      }),
-              "a stay's length; without one its tension can't be told", "name")
+              "stays: lowest fundamental frequency of the taut string that is considered")
+      .number("stay.highest", stay_highest_Hz, "Hz", io::non_negative(),
+              "stays: highest fundamental frequency of the taut string that is considered; 0: any")
+      .number("stay.level", stay_level, "", {0.5, 0.9999}, "stays: probability of the intervals of tension and sag")
+      .tables(
+          "stay_length",
+          rows_of(stays,
+                  [](io::FieldTable& entry, identification::StaySettings& stay) {
+                    entry.text("name", stay.name, "name of the setup, point or channel of the stay's records", true)
+                        .number("length", stay.length_m, "m", io::positive(), "free length", true)
+                        .choice("ends", stay.ends, {"unknown", "hinged", "clamped"},
+                                "how the ends are held; unknown: both are compared")
+                        .number(
+                            "bending_stiffness", stay.bending_stiffness_N_m2, "N m^2", io::non_negative(),
+                            "bending stiffness EI of the section, assumed known to ten per cent; 0: fitted to the harmonics")
+                        .number("mass", stay.mass_kg_m, "kg/m", io::non_negative(),
+                                "mass per length, required with bending_stiffness");
+                  }),
+          "length and ends of a stay; without them its tension is not computed", "name")
       .rule([this] { return orders_exchanged("", minimum_order, maximum_order); })
       .rule([this]() -> std::optional<io::FieldTable::Broken> {
         if (block_rows != 1) return std::nullopt;

@@ -24,30 +24,30 @@ io::FieldTable RefinementConfig::fields() {
   io::FieldTable table;
   table
       .integer("n_modes", n_modes, {1, 1000},
-               "computed modes that are written and compared; more where measured shapes lie above them")
+               "number of computed modes that are written and compared; raised if measured modes with shapes lie above them")
       .integer("extra_modes", extra_modes, {0, 1000},
-               "modes solved for beyond n_modes, so that a followed mode is found when it moves up")
-      .text("variant", variant, "variant of the generator that is the refined model")
+               "modes solved for beyond n_modes, so that a mode is still found when its frequency rises")
+      .text("variant", variant, "variant of the generator that gives the refined model")
       .texts("pairs", pairs,
-             "published assignment, measured-numerical (\"7X-8N\"), used where no shape was measured; empty: by order")
+             "published pairs, measured-numerical (\"7X-8N\"), used if no shapes were measured; empty: pairs by order of "
+             "frequency")
       .text("condition", condition,
-            "condition of the measured features, unless --condition or --state says another; empty: the only one, or where "
-            "dampers were switched the only one without")
-      .number("minimum_mac", minimum_mac, "", {0.0, 1.0}, "pairs by MAC below it are none; the modes stay unpaired")
+            "condition of the measured features (--condition or --state override it); empty: the only condition, or the only "
+            "one without dampers")
+      .number("minimum_mac", minimum_mac, "", {0.0, 1.0}, "pairing by MAC: least MAC of a pair; other modes stay unpaired")
       .number("least_paired", least_paired, "", {0.0, 1.0},
-              "by MAC: share of the measured modes that must have a partner, else the step refuses")
+              "pairing by MAC: least share of the measured modes with a partner; below it the step refuses")
       .number("maximum_frequency_error", maximum_frequency_error, "", io::positive(),
-              "relative; pairs by MAC further off are not admitted, pairs by order are warned of")
-      .number("cluster_gap", cluster_gap, "", io::non_negative(),
-              "relative frequency gap below which numerical modes count as close")
+              "largest relative frequency difference of a pair; pairing by MAC excludes other pairs, pairing by order warns of "
+              "them")
+      .number("cluster_gap", cluster_gap, "", io::non_negative(), "relative frequency gap below which modes count as close")
       .number("sensor_tolerance", sensor_tolerance_m, "m", io::positive(),
-              "largest distance of a sensor from the node that stands for it");
+              "largest distance between a sensor and its nearest node");
   return table;
 }
 
 namespace {
 
-/// What the step reads.
 struct RefinementInputs {
   dynamics::ReadModel initial;
   std::optional<runner::Study> generated;  ///< the study whose generator writes the model; a model of the user's own has none
@@ -55,7 +55,7 @@ struct RefinementInputs {
   std::optional<matching::Measured> measured;
 };
 
-/// Measured modes that take part: those of the published pairs where such a list is used, otherwise all.
+/// Measured modes that take part: those in a published list of pairs if one is used, otherwise all.
 std::vector<bool> compared_modes(const matching::Measured& measured, const matching::Pairing& refined) {
   std::vector<bool> keep(measured.labels.size(), refined.method != "published");
   for (const matching::ModePair& pair : refined.pairs) keep[static_cast<std::size_t>(pair.experimental)] = true;
@@ -134,7 +134,7 @@ Status run_refinement(runner::StepContext& context, const RefinementConfig& conf
   dynamics::LoadedModel refined_source = read.refined ? dynamics::solvable(*read.refined) : initial_model;
   auto n = static_cast<int>(
       std::min<Eigen::Index>(config.n_modes, std::min(initial_model.system.size(), refined_source.system.size())));
-  if (read.measured && read.measured->modes.has_shapes() && !read.generated)  // a generator's tables have a set number
+  if (read.measured && read.measured->modes.has_shapes() && !read.generated)  // a generator's tables have fixed modes
     n = dynamics::modes_for_band(refined_source.system, refined_source.theta, n, read.measured->modes.frequency_Hz,
                                  config.maximum_frequency_error);
   const matching::SolvedModel initial = matching::solve_modes(std::move(initial_model), n);
@@ -143,10 +143,10 @@ Status run_refinement(runner::StepContext& context, const RefinementConfig& conf
                         context.out);
   model_io::save_model(refined.loaded, refined.loaded.theta, context.out / "model");
 
-  // 2. Against the measurement.
+  // 2. Comparison with the measurement.
   const matching::PairingAccount account = compare_with_measurement(context, config, read.measured, initial, refined);
 
-  // 3. What each as-built change does.
+  // 3. Effect of each as-built change.
   ponte::ChangeStudy changes;
   if (read.generated)
     changes =

@@ -20,60 +20,63 @@ namespace twindeck::steps {
 namespace {
 
 void add_wall(io::FieldTable& t, StatedWall& wall) {
-  t.texts("sections", wall.sections, "sections of sections.csv that corrode alike")
+  t.texts("sections", wall.sections, "sections of sections.csv that corrode by the same law")
       .number("thickness", wall.thickness_m, "m", {0.0, 10.0},
-              "thickness of the wall; 0: round ropes or rods, or a shell's own")
-      .integer("sides", wall.sides, {1.0, 2.0}, "surfaces of the wall that corrode")
-      .choice("category", wall.category, {"C1", "C2", "C3", "C4", "C5", "CX"}, "category of the atmosphere, ISO 9223")
-      .number("first_year", wall.first_year_m, "m", {0.0, 0.1}, "loss of the first year; 0: the middle of the category's range")
-      .number("exponent", wall.exponent, "", {0.0, 1.0, true}, "b of D = r t^b, ISO 9224: 0.523, upper bound 0.575")
+              "thickness of the wall; 0: round ropes or rods, or the shell's own thickness")
+      .integer("sides", wall.sides, {1.0, 2.0}, "number of surfaces of the wall that corrode")
+      .choice("category", wall.category, {"C1", "C2", "C3", "C4", "C5", "CX"}, "corrosivity of the atmosphere, ISO 9223")
+      .number("first_year", wall.first_year_m, "m", {0.0, 0.1},
+              "loss of thickness in the first year; 0: the middle of the category's range")
+      .number("exponent", wall.exponent, "", {0.0, 1.0, true}, "exponent b of D = r t^b, ISO 9224: 0.523, upper bound 0.575")
       .number("coating_life_years", wall.coating_life_years, "", {0.0, 1000.0}, "years until the coating is gone");
 }
 
 void add_fault(io::FieldTable& t, StatedFault& fault) {
   t.text("damper", fault.damper, "name of the damper in springs.csv", true)
-      .choice("kind", fault.kind, {"held", "lost"}, "held by static friction, or taken out");
+      .choice("kind", fault.kind, {"held", "lost"}, "fault: held by static friction, or removed");
 }
 
 void add_comfort(io::FieldTable& t, StatedComfort& limit) {
-  t.text("name", limit.name, "of the guideline or of your own", true)
+  t.text("name", limit.name, "name of the limit, such as its guideline", true)
       .number("vertical", limit.vertical_m_s2, "m/s2", {0.0, 100.0}, "limit of the vertical acceleration; 0: none")
       .number("lateral", limit.lateral_m_s2, "m/s2", {0.0, 100.0}, "limit of the lateral acceleration; 0: none");
 }
 
 void add_random(io::FieldTable& t, StatedInput& input) {
-  t.text("name", input.name, "\"parameter:NAME\" of the model, or one of the four above by its name in random.csv", true)
-      .choice("law", input.law, {"normal", "lognormal", "uniform", "gumbel", "weibull"}, "law of the input")
+  t.text("name", input.name,
+         "parameter of the model as \"parameter:NAME\", or one of the four inputs above by its name in random.csv", true)
+      .choice("law", input.law, {"normal", "lognormal", "uniform", "gumbel", "weibull"}, "probability law of the input")
       .number("mean", input.mean, "", {-1e300, 1e300}, "mean, in the input's own unit", true)
       .number("deviation", input.deviation, "", {-1e300, 1e300}, "standard deviation, in the same unit; 0 keeps it fixed", true)
-      .boolean("bounded", input.bounded, "the law is cut to low and high")
-      .number("low", input.low_value, "", {-1e300, 1e300}, "least value, where it is bounded")
-      .number("high", input.high_value, "", {-1e300, 1e300}, "largest value, where it is bounded")
-      .choice("label", input.label, {"paper", "code", "assumed", "identified", "user"}, "kind of the numbers")
-      .text("source", input.source, "where they come from");
+      .boolean("bounded", input.bounded, "whether the law is truncated to the range from low to high")
+      .number("low", input.low_value, "", {-1e300, 1e300}, "least value of a bounded law")
+      .number("high", input.high_value, "", {-1e300, 1e300}, "largest value of a bounded law")
+      .choice("label", input.label, {"paper", "code", "assumed", "identified", "user"}, "kind of source of the numbers")
+      .text("source", input.source, "source of the numbers");
 }
 
 void add_tables(ReliabilityConfig& config, io::FieldTable& t) {
   t.texts("rare", config.rare,
-          "limit states of crossings.csv whose excursion is also found by FORM and by subset simulation (rare.csv)")
-      .numbers("years", config.years, "", {0.0, 1000.0}, "years in service that are computed, the first of them 0")
-      .tables("wall", rows_of(config.walls, add_wall), "sections that lose thickness")
-      .tables("fault", rows_of(config.faults, add_fault), "one damper at fault: a further case with dampers")
-      .tables("comfort", rows_of(config.comfort, add_comfort), "comfort limits beside those of step 8", "name")
+          "limit states of crossings.csv whose probability is also computed by FORM and by subset simulation (rare.csv)")
+      .numbers("years", config.years, "", {0.0, 1000.0}, "years in service that are computed; the first must be 0")
+      .tables("wall", rows_of(config.walls, add_wall), "sections that lose thickness by corrosion")
+      .tables("fault", rows_of(config.faults, add_fault), "one damper with a fault, computed as a further case")
+      .tables("comfort", rows_of(config.comfort, add_comfort), "comfort limits in addition to those of step 8", "name")
       .choice("wind_law.kind", config.wind_law.kind_name, {"none", "weibull", "table", "gumbel", "code"},
-              "your law of the mean wind at the deck: weibull and table hold all ten-minute means, gumbel and code the largest "
-              "of a year; none: no annual figure")
-      .number("wind_law.scale", config.wind_law.scale_m_s, "m/s", io::non_negative(), "weibull: scale")
-      .number("wind_law.shape", config.wind_law.shape, "", io::positive(), "weibull: shape")
+              "your probability law of the mean wind at the deck: weibull and table for all ten-minute means, gumbel and code "
+              "for the annual maximum; none: no annual probability")
+      .number("wind_law.scale", config.wind_law.scale_m_s, "m/s", io::non_negative(), "weibull: scale parameter")
+      .number("wind_law.shape", config.wind_law.shape, "", io::positive(), "weibull: shape parameter")
       .number("wind_law.mode", config.wind_law.mode_m_s, "m/s", io::non_negative(), "gumbel: mode")
-      .number("wind_law.gumbel_scale", config.wind_law.gumbel_scale_m_s, "m/s", io::non_negative(), "gumbel: scale")
+      .number("wind_law.gumbel_scale", config.wind_law.gumbel_scale_m_s, "m/s", io::non_negative(), "gumbel: scale parameter")
       .number("wind_law.basic_speed", config.wind_law.basic_m_s, "m/s", io::non_negative(),
               "code: basic wind speed v_b of EN 1991-1-4")
-      .choice("wind_law.terrain", config.wind_law.terrain, {"0", "I", "II", "III", "IV"}, "code: category of the terrain")
+      .choice("wind_law.terrain", config.wind_law.terrain, {"0", "I", "II", "III", "IV"}, "code: terrain category, EN 1991-1-4")
       .text("wind_law.file", config.wind_law.file,
-            "table: file with speed_m_s, direction_deg (where the wind blows to, as step 7's), probability")
-      .number("wind_law.sector", config.wind_law.sector_deg, "", {1.0, 360.0},
-              "table: winds within half this angle of step 7's direction or its opposite count, others as calm, degrees");
+            "table: file with speed_m_s, direction_deg (towards which the wind blows, as in step 7), probability")
+      .number(
+          "wind_law.sector", config.wind_law.sector_deg, "", {1.0, 360.0},
+          "table: width in degrees of the sectors about step 7's direction and its opposite; winds outside them count as calm");
 }
 
 }  // namespace
@@ -82,13 +85,14 @@ io::FieldTable ReliabilityConfig::fields() {
   const io::Range variation = {0.0, 2.0};
   io::FieldTable t;
   t.numbers("speeds", speed_m_s, "m/s", {0.0, io::highest_wind_m_s, true}, "mean wind speeds of the fragility curves")
-      .texts("models", models, "deployments whose critical speeds are asked for; empty: all that step 7 has")
-      .text("response_model", response_model, "deployment of the response to turbulence")
-      .number("duration", duration_s, "s", {0.0, io::longest_record_s, true}, "time in which a limit may be exceeded")
-      .integer("samples", samples, {100.0, 1000000.0}, "samples of the random inputs for the spread of probabilities")
-      .integer("form_iterations", form_iterations, {1.0, 1e5}, "iterations of one search of FORM for the design point")
+      .texts("models", models, "models whose critical speeds are computed; empty: all of step 7")
+      .text("response_model", response_model, "model for the response to turbulence")
+      .number("duration", duration_s, "s", {0.0, io::longest_record_s, true},
+              "reference time of the probability that a limit is exceeded")
+      .integer("samples", samples, {100.0, 1000000.0}, "samples of the random inputs, for the spread of the probabilities")
+      .integer("form_iterations", form_iterations, {1.0, 1e5}, "most iterations of FORM in one search for the design point")
       .integer("subset_levels", subset_levels, {1.0, 100.0},
-               "levels of subset simulation; each reaches probabilities ten times smaller")
+               "largest number of levels of subset simulation; each reaches probabilities ten times smaller")
       .number("damping_variation", damping_variation, "", variation,
               "coefficient of variation of the structural damping (lognormal about step 7's value); assumed")
       .number("level_variation", level_variation, "", variation,
@@ -98,17 +102,19 @@ io::FieldTable ReliabilityConfig::fields() {
       .number("turbulence_variation", turbulence_variation, "", variation,
               "coefficient of variation of the turbulence intensity (lognormal about 1); assumed")
       .tables("random", rows_of(random, add_random),
-              "a random input of your own: it replaces the one of the same name, or adds a parameter of the model", "name")
+              "a random input of your own; it replaces the input of the same name, or adds a parameter of the model", "name")
       .number("corrosion_variation", corrosion_variation, "", variation,
               "coefficient of variation of the rate of corrosion (lognormal about 1); assumed")
       .number("held_stiffness", held_stiffness_N_m, "N/m", {0.0, 1e12, true},
-              "stiffness of a held damper that has no spring in series: of its mounts; assumed")
-      .number("damper_stroke", damper_stroke_m, "m", {0.0, 10.0}, "largest stroke of a damper to either side; 0: not asked")
+              "stiffness of the mounts of a held damper without a spring in series; assumed")
+      .number("damper_stroke", damper_stroke_m, "m", {0.0, 10.0},
+              "largest stroke of a damper in either direction; 0: stroke is not checked")
       .choice("stay_class", stay_class, {"bar", "coil_rope", "spiral_strand", "parallel"},
               "fatigue category of the stays, EN 1993-1-11:2006, table 9.1: bars 105 MPa, locked coil ropes and spiral strands "
               "150 MPa, parallel wires and strands 160 MPa");
   t.text("condition", condition,
-         "condition of the measured features whose standard deviations say what monitoring would see; empty: the only one");
+         "condition of the measured features, whose standard deviations give the detectability by monitoring; empty: the only "
+         "condition");
   add_tables(*this, t);
   return t;
 }
@@ -146,7 +152,7 @@ Posterior read_posterior(runner::StepContext& context, const std::vector<fe::Par
   }
   const auto n = std::ssize(out.inputs);
   out.correlation = Eigen::MatrixXd::Identity(n, n);
-  const auto position = [&](const std::string& name) -> Eigen::Index {  // n for a parameter that is held
+  const auto position = [&](const std::string& name) -> Eigen::Index {  // n for a parameter that is not random
     return std::ranges::find(out.inputs, kParameter + name, &reliability::RandomInput::name) - out.inputs.begin();
   };
   const io::CsvTable pairs =
@@ -158,7 +164,6 @@ Posterior read_posterior(runner::StepContext& context, const std::vector<fe::Par
   return out;
 }
 
-/// A factor or ratio with a coefficient of variation.
 reliability::RandomInput scattered(const std::string& name, double mean, double variation, const std::string& label,
                                    const std::string& source) {
   return {name, reliability::LawKind::lognormal, mean, variation * mean, std::nullopt, std::nullopt, label, source};
@@ -184,7 +189,8 @@ std::vector<reliability::Wall> walls_of(const ReliabilityConfig& config) {
   return out;
 }
 
-/// Winds of a table from the study's side, each speed with the share of the time in its sector; all other winds as calm.
+/// Winds of a table that come from within the sector about step 7's direction, with the share of the time for each speed. All
+/// other winds count as calm.
 void read_wind_table(const StatedWindLaw& stated, double direction_deg, runner::StepContext& context,
                      reliability::WindLaw& law) {
   if (stated.file.empty())
@@ -216,7 +222,7 @@ std::optional<reliability::WindLaw> read_wind_law(const StatedWindLaw& stated, d
   return law;
 }
 
-/// Refuses lists that say nothing or do not rise, and walls and faults that the model cannot have, before anything is computed.
+/// Refuses empty or unordered lists, and walls and faults that the model cannot have, before anything is computed.
 void check_lists(const ReliabilityConfig& config, const std::vector<reliability::Wall>& walls, const fe::Model* model) {
   const auto rises = [](const std::vector<double>& list) {
     return !list.empty() && std::ranges::adjacent_find(list, std::greater_equal<>()) == list.end();
@@ -238,7 +244,7 @@ void check_lists(const ReliabilityConfig& config, const std::vector<reliability:
     static_cast<void>(reliability::with_damper_fault(*model, fault.damper, reliability::DamperFault::lost, 0.0));
 }
 
-/// Factors, ratios and rates go in by their logarithms, one deviation to either side of the median.
+/// Refuses factors, ratios and rates that are not positive one deviation below their median: their logarithms are needed.
 void check_positive(const reliability::RandomVector& random) {
   const Eigen::VectorXd below = random.values(Eigen::VectorXd::Constant(random.dimension(), -1.0));
   for (std::size_t i = 0; i < random.inputs().size(); ++i) {
@@ -288,7 +294,7 @@ Inputs random_inputs(const ReliabilityConfig& config, double structural_damping,
     if (at - known.begin() < own_inputs) continue;
     parameters.push_back(static_cast<int>(at - known.begin() - own_inputs));
     if (input.low || input.high) continue;
-    // An input without ends takes those of the model.
+    // An input without bounds takes those of the model's parameter.
     input.low = of_model[static_cast<std::size_t>(parameters.back())].lower;
     input.high = of_model[static_cast<std::size_t>(parameters.back())].upper;
   }
@@ -338,7 +344,7 @@ ReliabilityInputs read_reliability_inputs(const ReliabilityConfig& config, runne
   AerodynamicsConfig aerodynamics = read_step_7("", context);
   ValidationConfig validation;
   io::FieldTable fields = validation.fields();
-  std::string model_of_8, campaign_of_8;  // step 8 reads them: they are no inputs here
+  std::string model_of_8, campaign_of_8;  // keys that only step 8 reads; no inputs of this step
   fields.text("model", model_of_8, "of step 8").text("campaign", campaign_of_8, "of step 8");
   fields.load(context.input(context.study / "s8_validation.toml"));
   fields.require();

@@ -89,20 +89,21 @@ void write_identifiability(const std::vector<fe::Parameter>& parameters, const s
 
 io::FieldTable SensitivityConfig::fields() {
   io::FieldTable table;
-  table.integer("n_modes", n_modes, {1.0, 200.0}, "modes in the sensitivity matrix, from the lowest")
+  table.integer("n_modes", n_modes, {1.0, 200.0}, "number of modes in the sensitivity matrix, from the lowest")
       .choice("compared_modes_from", compared_modes_from, {"list", "s4_refinement"},
-              "which modes are compared with a measurement: those of `compared_modes`, or those that s4_refinement paired")
+              "source of the modes compared with a measurement: the list `compared_modes`, or the pairs of s4_refinement")
       .numbers("compared_modes", compared_modes, "", {1.0, 200.0},
-               "modes (from 1) that are compared with a measurement, on which selection and identifiability rest; empty: all")
-      .number("forward_step", forward_step, "", {1e-6, 0.5}, "step of Eq. (6), relative to the parameter")
+               "numbers (from 1) of the modes compared with a measurement; selection and identifiability use these modes; "
+               "empty: all")
+      .number("forward_step", forward_step, "", {1e-6, 0.5}, "finite-difference step of Eq. (6), relative to the parameter")
       .number("frequency_std_pct", frequency_std_pct, "", io::positive(),
-              "standard deviation of a measured frequency in percent: below it a shift counts as not seen")
+              "standard deviation of a measured frequency in percent; smaller shifts count as not observable")
       .number("selection_threshold", selection_threshold, "", io::positive(),
-              "standard deviations by which a kept parameter must be able to move the frequencies in a way of its own")
+              "least frequency change by a selected parameter that no other parameter can produce, in standard deviations")
       .number("singular_value_cutoff", singular_value_cutoff, "", io::positive(),
-              "standard deviations below which a direction of parameters counts as not identifiable")
+              "singular value, in standard deviations, below which a direction of parameters counts as not identifiable")
       .number("resolution_cutoff", resolution_cutoff, "", {0.0, 1.0},
-              "diagonal of the resolution matrix from which a parameter counts as identifiable")
+              "least diagonal entry of the resolution matrix of an identifiable parameter")
       .texts("published_selection", published_selection, "parameters that the paper kept, for the column `published`");
   return table;
 }

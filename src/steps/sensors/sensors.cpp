@@ -25,34 +25,34 @@ using Eigen::VectorXd;
 
 io::FieldTable SensorsConfig::fields() {
   io::FieldTable table;
-  table.text("points", points, "points that sensors may stand on: point,line,s_m,x_m,y_m,z_m,rx,ry,rz", true)
-      .text("setups", setups, "setups: setup,family,channel,point,direction", true)
-      .integer("n_modes", n_modes, {2.0, 200.0}, "modes that are to be told apart")
-      .integer("channels", channels, {2.0, 1000.0}, "sensors of the setups that are drawn and searched for")
-      .integer("draws", draws, {1.0, 1e6}, "candidates drawn of each family")
-      .integer("free_setups", free_setups, {0.0, 100.0}, "how many of the freely drawn setups are kept as DC1, DC2, …")
-      .number("sensor_tolerance", tolerance_m, "m", io::positive(),
-              "largest distance of a point from the model's node that stands for it")
-      .texts("blind.setups", blind_setups, "setups that the blind test is made with; none: no blind test")
+  table.text("points", points, "file of possible sensor points: point,line,s_m,x_m,y_m,z_m,rx,ry,rz", true)
+      .text("setups", setups, "file of sensor setups: setup,family,channel,point,direction", true)
+      .integer("n_modes", n_modes, {2.0, 200.0}, "number of modes that the sensors must tell apart")
+      .integer("channels", channels, {2.0, 1000.0}, "number of sensors in each setup that the step draws or searches for")
+      .integer("draws", draws, {1.0, 1e6}, "number of random setups drawn for each family")
+      .integer("free_setups", free_setups, {0.0, 100.0}, "number of freely drawn setups that are kept, as DC1, DC2, …")
+      .number("sensor_tolerance", tolerance_m, "m", io::positive(), "largest distance between a point and its nearest node")
+      .texts("blind.setups", blind_setups, "setups of the blind test; empty: no blind test")
       .number("blind.duration", duration_s, "s", {0.0, io::longest_record_s, true}, "length of the signals")
-      .number("blind.rate", rate_Hz, "Hz", {0.0, io::highest_rate_Hz, true}, "steps of the trapezoidal rule a second")
-      .number("blind.damping", damping_ratio, "", {0.0, 0.2, true}, "of every mode")
-      .number("blind.warm_up", warm_up_s, "s", {0.0, io::longest_record_s}, "left out before the signals")
-      .integer("blind.downsample", downsample, {1.0, 1000.0}, "every so many-th sample is kept, after a low-pass")
-      .integer("blind.frames", frames, {1.0, 900.0}, "frames that are identified one by one")
+      .number("blind.rate", rate_Hz, "Hz", {0.0, io::highest_rate_Hz, true},
+              "time steps per second of the simulated signals (trapezoidal rule)")
+      .number("blind.damping", damping_ratio, "", {0.0, 0.2, true}, "damping ratio of every mode")
+      .number("blind.warm_up", warm_up_s, "s", {0.0, io::longest_record_s}, "discarded time before the signals begin")
+      .integer("blind.downsample", downsample, {1.0, 1000.0}, "factor of decimation, after a low-pass filter")
+      .integer("blind.frames", frames, {1.0, 900.0}, "number of frames, each identified on its own")
       .integer("blind.minimum_order", minimum_order, {2.0, 500.0}, "smallest model order")
       .integer("blind.maximum_order", maximum_order, {2.0, 500.0}, "largest model order")
-      .integer("blind.order_step", order_step, {1.0, 100.0}, "step of the order")
+      .integer("blind.order_step", order_step, {1.0, 100.0}, "step between model orders")
       .integer("blind.block_rows", block_rows, {2.0, 500.0}, "block rows of the Toeplitz matrix")
       .integer("blind.welch_segment", welch_segment, {8.0, 1e7}, "samples of a Welch segment, after downsampling")
-      .number("stable.frequency", criteria.frequency, "", io::positive(), "relative change of a stable frequency")
-      .number("stable.damping", criteria.damping, "", io::positive(), "change of a stable damping ratio")
-      .number("stable.mac", criteria.mac, "", {0.0, 1.0}, "MAC of a stable shape")
-      .number("cleaning.mac", cleaning.mac, "", {0.0, 1.0}, "Eq. (3)")
+      .number("stable.frequency", criteria.frequency, "", io::positive(), "largest relative change of a stable frequency")
+      .number("stable.damping", criteria.damping, "", io::positive(), "largest change of a stable damping ratio between orders")
+      .number("stable.mac", criteria.mac, "", {0.0, 1.0}, "least MAC of a stable shape between orders")
+      .number("cleaning.mac", cleaning.mac, "", {0.0, 1.0}, "paper Eq. (3): least MAC of two shapes that count as the same")
       .number("cleaning.frequency", cleaning.frequency, "", io::positive(),
-              "relative distance of frequencies that may count as the same")
+              "largest relative distance of two frequencies that count as the same")
       .number("cleaning.recursion", cleaning.recursion, "", io::non_negative(),
-              "Eq. (4): index of recursion that a mode exceeds")
+              "paper Eq. (4): least recursion index of a mode")
       .rule([this] { return orders_exchanged("blind.", minimum_order, maximum_order); });
   return table;
 }
@@ -96,8 +96,8 @@ void write_auto_mac(const std::vector<sensors::ScoredSetup>& setups, const Matri
   csv.save(folder / "automac.csv");
 }
 
-/// A true mode's partner: of those within 5 % in frequency that no other has, the one of highest MAC, a point off for each 10
-/// %.
+/// Writes the blind test. The partner of a true mode is an identified mode within 5 % in frequency that no other mode has. Of
+/// several it is the one with the highest MAC, reduced by 0.01 for each 10 % of frequency difference.
 void write_blind_test(const SensorsConfig& config, const sensors::BlindTestResult& result,
                       const std::vector<sensors::ScoredSetup>& setups, const VectorXd& frequency_Hz, const MatrixXd& phi,
                       const fs::path& folder) {
@@ -153,12 +153,11 @@ void write_blind_test(const SensorsConfig& config, const sensors::BlindTestResul
   psd.save(folder / "blind_psd.csv");
 }
 
-/// What the step reads.
 struct SensorsInputs {
   std::vector<sensors::LayoutPoint> points;
   std::vector<sensors::LayoutChannel> setups, candidates;
   dynamics::ReadModel model;
-  std::vector<int> nodes;  ///< of the model, one a point
+  std::vector<int> nodes;  ///< node of the model for each point
 };
 
 Status run_sensors(runner::StepContext& context, const SensorsConfig& config, const SensorsInputs& read) {

@@ -145,48 +145,55 @@ io::FieldTable UpdatingConfig::fields() {
   io::FieldTable table;
   table
       .choice("parameters_from", parameters_from, {"list", "s5_sensitivity"},
-              "which parameters are updated: those of `parameters`, or those that s5_sensitivity selected")
+              "source of the updated parameters: the list `parameters`, or the selection of s5_sensitivity")
       .texts("parameters", parameters, "names of the parameters to update; empty: all that have a range")
-      .boolean("beside_selection", beside_selection,
-               "beside the parameters listed, the same update of those that s5_sensitivity selected (selected.csv, "
-               "leave_one_out_selected.csv)")
-      .texts("pairs", pairs, "published assignment such as \"7X-8N\", used where no shape was measured; empty: by order")
+      .boolean(
+          "beside_selection", beside_selection,
+          "also updates the parameters that s5_sensitivity selected, for comparison (selected.csv, leave_one_out_selected.csv)")
+      .texts("pairs", pairs,
+             "published pairs, measured-numerical (\"7X-8N\"), used if no shapes were measured; empty: pairs by order of "
+             "frequency")
       .texts("common_pairs", common_pairs,
-             "measured modes (\"7X\") of a second mean error, over pairs that an earlier table has too")
+             "measured modes (\"7X\") of a second mean error, over the pairs that an earlier table also has")
       .text("condition", condition,
-            "condition of the measured features, unless --condition or --state says another; empty: the only one, or where "
-            "dampers were switched the only one without")
+            "condition of the measured features (--condition or --state override it); empty: the only condition, or the only "
+            "one without dampers")
       .number("trust_radius", trust_radius, "", io::positive(), "initial trust radius of the dogleg, in normalised parameters")
-      .integer("starts", starts, {1.0, 1000.0}, "searches: from the initial values, and from seeded points inside the bounds")
+      .integer("starts", starts, {1.0, 1000.0},
+               "number of searches: one from the initial values, the others from random points inside the bounds")
       .integer("n_modes", n_modes, {1.0, 200.0},
-               "modes solved for, among which the paired ones are followed; more where measured shapes lie above them")
-      .integer("max_iterations", max_iterations, {1.0, 1e5}, "most steps of one solve at fixed prestress")
-      .integer("outer_iterations", outer_iterations, {1.0, 1000.0}, "most prestress states of one search")
+               "number of modes solved for, which include the paired ones; raised if measured modes with shapes lie above them")
+      .integer("max_iterations", max_iterations, {1.0, 1e5}, "largest number of steps of one solve at fixed prestress")
+      .integer("outer_iterations", outer_iterations, {1.0, 1000.0}, "largest number of prestress states of one search")
       .number("optimality_tolerance", optimality_tolerance, "", {1e-12, 1e-2, true},
-              "projected gradient at which a solve has converged, relative to the gradient at its start")
-      .number("minimum_mac", minimum_mac, "", {0.0, 1.0}, "pairing by MAC: pairs below it are none; the modes stay unpaired")
+              "projected gradient at convergence of a solve, relative to the gradient at its start")
+      .number("minimum_mac", minimum_mac, "", {0.0, 1.0}, "pairing by MAC: least MAC of a pair; other modes stay unpaired")
       .number("least_paired", least_paired, "", {0.0, 1.0},
-              "pairing by MAC: share of the measured modes that must have a partner, else the step refuses")
+              "pairing by MAC: least share of the measured modes with a partner; below it the step refuses")
       .number("maximum_frequency_error", maximum_frequency_error, "", io::positive(),
-              "relative, of a frequency: a pair by MAC further apart is not admitted, and pairs by order are warned of")
+              "largest relative frequency difference of a pair; pairing by MAC excludes other pairs, pairing by order warns of "
+              "them")
       .number("cluster_gap", cluster_gap, "", io::non_negative(),
-              "pairing by MAC: relative gap below which modes count as close")
-      .number("sensor_tolerance", sensor_tolerance_m, "m", io::non_negative(), "largest distance of a sensor from its node")
+              "pairing by MAC: relative frequency gap below which modes count as close")
+      .number("sensor_tolerance", sensor_tolerance_m, "m", io::non_negative(),
+              "largest distance between a sensor and its nearest node")
       .boolean("leave_one_out", leave_one_out,
-               "afterwards each pair is left out in turn and predicted by an update to the others (leave_one_out.csv)")
-      .choices("residuals", residuals, {"frequency", "shape"},
-               "what is fitted: frequencies, and shapes too (any scale of each is free; docs/updating_on_shapes.md)")
+               "leaves out each pair in turn and predicts it by an update to the other pairs (leave_one_out.csv)")
+      .choices(
+          "residuals", residuals, {"frequency", "shape"},
+          "fitted residuals: frequencies, or frequencies and shapes (each shape with a free scale; docs/updating_on_shapes.md)")
       .choice("weights", weights, {"automatic", "relative", "covariance"},
-              "relative: errors of frequencies relative to the measured ones, the paper's Eq. (5); covariance: standard "
-              "deviations or covariance.npy of the features; automatic: covariance with shapes, else relative")
-      .number("frequency_model_error", frequency_model_error, "", io::non_negative(),
-              "standard deviation of the model's own error relative to the frequency, added to the measurement's (weights by "
-              "covariance)")
+              "relative: relative frequency errors, the paper's Eq. (5); covariance: standard deviations or covariance.npy of "
+              "the features; automatic: covariance if shapes are fitted, else relative")
+      .number(
+          "frequency_model_error", frequency_model_error, "", io::non_negative(),
+          "relative standard deviation of the model's error in frequency, added to the measurement's (weights by covariance)")
       .number("shape_model_error", shape_model_error, "", io::non_negative(),
-              "the same for components of shapes, relative to the largest of the shape")
+              "standard deviation of the model's error in shape components, relative to the largest component, added to the "
+              "measurement's")
       .rule([this] { return broken_weights(*this); })
       .text("published_values", published_values,
-            "file with another updating's result (parameter,unit,final_value), whose cost in this model is told (costs.csv)");
+            "file with the result of another updating (parameter,unit,final_value); costs.csv states its cost in this model");
   return table;
 }
 
