@@ -57,7 +57,7 @@ int run(const Options& options) {
     if (options.write) write_into_bridge(calibration, result.part, options.bridge);
   }
   trade.save(std::filesystem::path(options.out) / "trade.csv");
-  return 0;  // the table says which trials settled
+  return 0;  // the table shows which trials settled
 }
 
 }  // namespace

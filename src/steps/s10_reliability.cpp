@@ -1,5 +1,5 @@
-/// Step 10: probabilities of the updated bridge in a given mean wind: comfort limits, loss of stability, and which input they
-/// hang on.
+/// Step 10: probabilities for the updated bridge in a given mean wind: comfort limits, loss of stability, and the influence of
+/// each input.
 #include "steps/reliability/inputs.hpp"
 #include "steps/reliability/reliability.hpp"
 

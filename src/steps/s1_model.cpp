@@ -43,7 +43,7 @@ Status run(const steps::ModelConfig& config, const dynamics::ReadModel& read, bo
   model_io::save_model(loaded, loaded.theta, context.out / "model");
   steps::write_exports(loaded, modes, static_cast<int>(config.n_modes), context);
 
-  // 4. The same modes on other meshes: how far this one is from converged.
+  // 4. The same modes on other meshes, which show the discretisation error.
   if (!config.meshes.empty() && is_bridge)
     steps::write_mesh_convergence(runner::read_study(context.study), config.variant, config.meshes,
                                   static_cast<int>(config.n_modes), context.out / "mesh_convergence.csv");

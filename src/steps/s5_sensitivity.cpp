@@ -1,4 +1,5 @@
-/// Step 5 (paper section 4.2, Eq. 6): sensitivity of the modes to the parameters, and which of these the measurement can tell.
+/// Step 5 (paper section 4.2, Eq. 6): sensitivity of the modes to the parameters, and the parameters that the measurement
+/// determines.
 
 #include "dynamics/unit_slips.hpp"
 #include "runner/run_step.hpp"
@@ -46,7 +47,7 @@ runner::Computation read(steps::SensitivityConfig& config, runner::StepContext& 
   if (config.compared_modes_from == "s4_refinement")
     config.compared_modes = steps::paired_modes(context.input(context.results / "s4_refinement" / "pairs.csv"));
   steps::check_sensitivity_config(config, model.parameters(), model.source);
-  // Measured modes are not needed here; where they are given, a slip of units in the model shows by them.
+  // Measured modes are not needed here. If they are given, they can show a slip of units in the model.
   std::vector<dynamics::MeasuredFrequencies> measured;
   if (context.features || context.modes) measured = steps::frequencies_of(steps::find_measured(context, ""));
   return [&config, &context, model, measured] { return run(config, model, measured, context); };

@@ -18,7 +18,7 @@ Status run(const steps::UpdatingConfig& asked, const steps::UpdatingInputs& read
   if (!before.state.status.converged) return before.state.status;
   const steps::UpdatingConfig config = asked.for_band_of(measured, before);
 
-  // 2. Which measured mode belongs to which computed one.
+  // 2. Pairs of measured and computed modes.
   const auto modes_before = dynamics::available_modes(before.system, before.theta, static_cast<int>(config.n_modes));
   if (!modes_before.status.converged) return modes_before.status;
   dynamics::judge_units(context, before, modes_before.frequency_Hz, steps::frequencies_of(measured));

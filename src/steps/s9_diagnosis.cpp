@@ -1,5 +1,5 @@
-/// Step 9: what the model fitted within its bounds still gets wrong, the cause out of the catalogue, the model extended by it,
-/// and the gain on rows that were held out (docs/diagnosis.md).
+/// Step 9: errors that remain after the model was fitted within its bounds, their cause out of the catalogue, the model with
+/// the cause, and the gain on held-out rows (docs/diagnosis.md).
 #include "steps/diagnosis/run.hpp"
 #include "steps/measured/measured_input.hpp"
 

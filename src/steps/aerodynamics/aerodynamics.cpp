@@ -20,7 +20,6 @@
 namespace twindeck::steps {
 namespace {
 
-/// What the step found.
 struct WindOutcome {
   std::vector<aero::FittedSet> sets;
   aero::Instabilities instabilities;
@@ -34,8 +33,8 @@ std::string status_of(const aero::CriticalRow& row, double max_speed_m_s) {
   return row.lost.empty() ? found : found + "; " + row.lost;
 }
 
-/// critical.csv; V_cr is empty where no mode becomes unstable up to `max_speed`. `ratio_to_A` and `f_cr_over_f1` within the
-/// set: over model A without dampers at `structural_damping`, and empty where `models` has no A.
+/// critical.csv. V_cr is empty if no mode becomes unstable up to `max_speed`. `ratio_to_A` and `f_cr_over_f1` are relative to
+/// model A of the same set without dampers at `structural_damping`, and empty if `models` has no A.
 void write_critical(const std::vector<aero::CriticalRow>& rows, const AerodynamicsConfig& config,
                     const std::filesystem::path& file) {
   std::map<std::string, double> speed_of_A;
@@ -100,7 +99,7 @@ void write_static(const std::vector<aero::StaticResponse>& responses, const std:
   csv.save(file);
 }
 
-/// rules.csv: Table 11 (and 14) as data: what the text cells of the tables are made from.
+/// rules.csv: the rules of Tables 11 and 14 as data, from which the text cells of the tables are made.
 void write_rules(const AerodynamicsConfig& config, const std::filesystem::path& file) {
   io::CsvWriter csv({"deployment", "deck", "beyond_deg", "model", "group", "description", "statics", "lookup_cos_power",
                      "block_inverse_cos_power_force", "block_inverse_cos_power_cross", "block_inverse_cos_power_moment",
@@ -119,7 +118,7 @@ void write_rules(const AerodynamicsConfig& config, const std::filesystem::path& 
   csv.save(file);
 }
 
-/// equations.csv: where the paper's equations cannot hold as printed.
+/// equations.csv: equations of the paper that cannot hold as printed.
 void write_equations(const std::filesystem::path& file) {
   io::CsvWriter csv({"equation", "printed", "taken", "reason", "as_printed_can_be_chosen"});
   for (const aero::EquationDifference& d : aero::equation_differences())
@@ -128,7 +127,7 @@ void write_equations(const std::filesystem::path& file) {
 }
 
 /// galloping.csv: Den Hartog's sum C_L' + C_D of each deck over the polar's angles, and h1* over reduced velocity (Fig. 19).
-/// From -4 to 4 degrees and from 1 to 20, as far as polar and table reach.
+/// Angles go from -4 to 4 degrees and reduced velocities from 1 to 20, as far as polar and table reach.
 void write_galloping(const std::vector<aero::FittedSet>& sets, const std::filesystem::path& file) {
   io::CsvWriter csv({"set", "deck", "angle_of_attack_deg", "V_over_fB", "h1", "den_hartog"});
   for (const aero::FittedSet& set : sets) {
@@ -179,7 +178,7 @@ void write_summary(const AerodynamicsConfig& config, const aero::WindModel& mode
   summary.save(file);
 }
 
-/// What a set's level multiplies, in words.
+/// Quantity that the level of a set multiplies, in words.
 std::string fitted_quantity(const std::string& set) { return set == "standin" ? "self-excited forces" : "lift slope"; }
 
 /// sets.csv, critical.csv, damping.csv, nodes.csv, static.csv, rules.csv, equations.csv, galloping.csv, polars.csv,

@@ -25,7 +25,7 @@ std::vector<std::string> used_setups(const ponte::CampaignSettings& settings,
   return used;
 }
 
-/// Channels that more than one setup has: those stay at their place while the others move.
+/// Channels that more than one setup has: they stay in position while the others move.
 std::set<std::string> references(const std::vector<sensors::LayoutChannel>& layout, const std::vector<std::string>& used) {
   std::map<std::string, int> count;
   for (const std::string& setup : used)

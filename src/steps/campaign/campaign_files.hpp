@@ -18,7 +18,7 @@ struct RecordFile {
   std::string setup, kind, condition, file;
   std::vector<std::string> channels;
 };
-/// Those of the decks, then those of the stays, in the order of the settings; names of files count up within a setup and
+/// The records of the decks, then those of the stays, in the order of the settings. Files are numbered within a setup and
 /// condition.
 [[nodiscard]] std::vector<RecordFile> record_files(const ponte::CampaignSettings& settings,
                                                    const std::vector<sensors::LayoutChannel>& layout);
@@ -34,7 +34,7 @@ void write_campaign_files(const ponte::CampaignSettings& settings, const std::ve
                           const std::vector<ponte::StayRecord>& stays, const std::vector<RecordFile>& files,
                           const std::map<std::string, Amplitude>& amplitudes, const std::filesystem::path& folder);
 
-/// Tables of what is true; read by nothing but scorers.
+/// Tables of the true values. Only scorers read them.
 class TruthTables {
  public:
   TruthTables();

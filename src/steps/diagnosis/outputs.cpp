@@ -22,7 +22,7 @@ namespace twindeck::steps {
 
 namespace {
 
-constexpr std::size_t kToldBlocks = 5;  ///< of the residual test: those that stand out most
+constexpr std::size_t kToldBlocks = 5;  ///< number of blocks of the residual test that are named
 
 using diagnosis::Diagnosis;
 using diagnosis::Inference;
@@ -69,7 +69,7 @@ nlohmann::ordered_json listed_parameters(const std::vector<diagnosis::EffectPara
   return out;
 }
 
-/// State, place and rivals of an effect. A coordinate that is not known is null.
+/// State, location and rivals of an effect. An unknown coordinate is null.
 void add_place_and_rivals(const diagnosis::Effect& effect, const Told& told, nlohmann::ordered_json& json) {
   const diagnosis::PlaceInWords place = told.places.at(effect.cause.candidate->location);
   json["state"] = effect.state;
@@ -179,7 +179,6 @@ void write_corrected_channels(const diagnosis::CorrectedChannels& corrected, con
   csv.save(file);
 }
 
-/// Entry of extension.toml.
 std::string listed(const diagnosis::Effect& effect, bool several_states, bool in_model) {
   const diagnosis::Candidate& cause = *effect.cause.candidate;
   std::string text =
@@ -211,8 +210,8 @@ void write_residuals(const Inference& inference, const Diagnosis& result, const 
   csv.save(file);
 }
 
-/// hypotheses.csv: `cause,location,log_odds,screen,signature_sigma,status`: every entry of the catalogue in the order of its
-/// odds, and the families that these data can't see with the reason.
+/// hypotheses.csv: `cause,location,log_odds,screen,signature_sigma,status`: all entries of the catalogue in the order of their
+/// odds, and the families that these data cannot show, with the reason.
 void write_hypotheses(const Diagnosis& result, const std::vector<diagnosis::Invisible>& invisible,
                       const std::filesystem::path& file) {
   io::CsvWriter csv({"cause", "location", "log_odds", "screen", "signature_sigma", "status"});

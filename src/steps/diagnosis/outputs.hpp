@@ -14,7 +14,7 @@
 
 namespace twindeck::steps {
 
-/// What a diagnosis is told with. The first two are borrowed.
+/// Data for the words about a diagnosis. The first two are borrowed.
 struct Told {
   const diagnosis::PlaceWords& places;
   const diagnosis::IdsInWords& ids;
@@ -36,12 +36,12 @@ void write_tables(const diagnosis::Inference& inference, const diagnosis::Instan
 void write_plan(const diagnosis::Inference& inference, const std::vector<diagnosis::Invisible>& invisible,
                 const std::filesystem::path& file);
 
-/// Writes `folder` as a model that every step accepts, with the parameters of the extended fit and the causes put in as far as
-/// a model folder can say them; extension.toml lists each cause with its numbers and whether the model holds it. Causes on the
-/// measurement's side leave the model as it is and correct channels.csv beside it.
-/// @param state  of the structure that the model is of: causes that act in others alone are listed and not put in
-/// @param several  whether there are others, which extension.toml then tells apart
-/// @return the causes that were left out for their state
+/// Writes `folder` as a model that every step accepts, with the parameters of the extended fit and the causes that a model
+/// folder can hold. The file extension.toml lists each cause with its numbers and whether the model holds it. Faults of the
+/// measurement do not change the model; channels.csv beside it is corrected.
+/// @param state  of the structure in the model; causes that act only in other states are listed but not put in
+/// @param several  whether there are other states; extension.toml then names the states
+/// @return the causes that act only in other states
 [[nodiscard]] std::vector<std::string> write_extended_model(const diagnosis::DiagnosedModel& model,
                                                             const diagnosis::Places& places, const diagnosis::Diagnosis& result,
                                                             const std::string& state, bool several,

@@ -14,11 +14,11 @@ namespace twindeck::steps {
 struct DiagnosisConfig {
   std::string catalogue;           ///< folder; empty: workflows/common/hypotheses or its installed copy
   std::string damper_places;       ///< file of places where dampers might stand instead
-  std::string further_causes;      ///< folder of causes beside it, which may put a family at another set of places
+  std::string further_causes;      ///< folder of causes added to the catalogue; it may put a family at other locations
   std::vector<std::string> pairs;  ///< "7X-8N", where no shape was measured
-  double least_mac = 0.0;          ///< MAC of a measured mode with one of the model; others are left out and reported
+  double least_mac = 0.0;          ///< least MAC of a measured mode with one of the model; others are left out and reported
   diagnosis::RowChoice rows;
-  std::vector<std::string> hold_out;  ///< "condition", "condition/mode": in place of marks and rule
+  std::vector<std::string> hold_out;  ///< "condition", "condition/mode"; replaces marks and rule
   long most_causes = diagnosis::DiagnoseOptions{}.most_causes, modes = 24, zones = 0, nodes = 0;
   double sensor_tolerance_m = 0.5;
   std::string stays = "as_modelled";  ///< "as_modelled": stays stay the bars that they are in the model

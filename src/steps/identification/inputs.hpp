@@ -14,9 +14,10 @@ namespace twindeck::steps {
 struct IdentificationInputs {
   records::Campaign campaign;
   std::vector<identification::ConditionResult>
-      conditions;  ///< ambient, or of the other kind that the configuration asks for; not identified; none for the kinds below
+      conditions;  ///< not yet identified; of ambient records or of the other kind that the configuration asks for; empty if
+                   ///< only decays or stays are there
   std::vector<identification::Conditioned> decays, stays;
-  bool decays_are_main = false;  ///< the modes are those of the free decays
+  bool decays_are_main = false;  ///< true: the free decays give the modes
 };
 
 /// Reads the file of the key `keep`. @return  empty for no file
@@ -36,7 +37,7 @@ struct IdentificationInputs {
 
 /// Configuration of s3_identification.
 struct IdentificationConfig : identification::IdentificationSettings {
-  /// As a user has it who configures nothing: sampling and blocks are chosen from the records.
+  /// Defaults for users: sampling and blocks are chosen from the records.
   IdentificationConfig() {
     decimation = block_rows = decay_decimation = decay_block_rows = stay_decimation = stay_block_rows = 0;
     decay_length_s = 0.0;

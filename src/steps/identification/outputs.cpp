@@ -20,7 +20,7 @@ using Eigen::Index;
 
 std::string name_of(std::size_t mode) { return std::to_string(mode + 1); }
 
-// A deviation that happens to vanish must not give a row of infinite weight.
+// A deviation that happens to be zero must not give a row infinite weight.
 double at_least(double deviation, double smallest) { return std::max(deviation, smallest); }
 
 bool is_partial(const identification::MergedMode& mode) { return mode.shape.array().real().isNaN().any(); }
@@ -72,7 +72,7 @@ void write_shapes(const identification::ConditionResult& result, const fs::path&
   csv.save(file);
 }
 
-/// Position in the merged list of a setup's mode, "" for none.
+/// Name of a setup's mode in the merged list, "" for none.
 std::string merged_name(const identification::ConditionResult& result, std::size_t setup, int mode) {
   if (mode < 0) return "";
   for (std::size_t m = 0; m < result.modes.size(); ++m)
@@ -124,7 +124,7 @@ void write_merging(const identification::ConditionResult& result, const fs::path
   csv.save(file);
 }
 
-/// The rows of the campaign's channels.csv that shapes are known at, as they stand there.
+/// Writes the rows of the campaign's channels.csv whose channels have shape values.
 void write_channels(const records::Campaign& campaign, const identification::ConditionResult& result, const fs::path& file) {
   const auto table = io::CsvTable::read(campaign.folder / "channels.csv", {"channel"}, {}, true);
   io::CsvWriter csv(table.columns());
@@ -158,7 +158,7 @@ void write_condition(const records::Campaign& campaign, const identification::Co
   write_channels(campaign, result, folder / "channels.csv");
 }
 
-/// An empty table each, in the order of first appearance.
+/// An empty table for each condition, in the order of first appearance.
 std::string tables_of(const std::vector<std::string>& conditions) {
   std::string tables;
   for (auto at = conditions.begin(); at != conditions.end(); ++at)
@@ -307,7 +307,7 @@ void write_identification(const records::Campaign& campaign, const std::vector<i
                           const std::vector<identification::StayResult>& stays,
                           const identification::IdentificationSettings& config, const fs::path& folder) {
   std::vector<identification::ChannelQuality> quality;
-  if (results.empty()) write_condition(campaign, {}, folder);  // of stays alone: the same files, without rows
+  if (results.empty()) write_condition(campaign, {}, folder);  // only stays: the same files, without rows
   for (std::size_t i = 0; i < results.size(); ++i) {
     const fs::path place = i == 0 ? folder : folder / "conditions" / results[i].condition;
     write_condition(campaign, results[i], place);
@@ -354,8 +354,8 @@ std::vector<std::string> report_lines(const identification::ConditionResult& res
 }
 
 std::vector<std::string> stay_lines(const std::vector<identification::StayResult>& stays, double level) {
-  constexpr double kCertain = 0.9;  // probability that needs no word
-  constexpr double kNarrow = 0.1;   // [-] of the value: an interval that needs no advice
+  constexpr double kCertain = 0.9;  // probability above which no warning is added
+  constexpr double kNarrow = 0.1;   // [-] relative width of an interval that needs no advice
   std::vector<std::string> lines;
   for (const identification::StayResult& stay : stays) {
     const identification::StayFit& fit = stay.fit;

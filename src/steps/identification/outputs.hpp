@@ -35,17 +35,17 @@ void write_identification(const records::Campaign& campaign, const std::vector<i
                           const std::vector<identification::StayResult>& stays,
                           const identification::IdentificationSettings& config, const std::filesystem::path& folder);
 
-/// Limits that decays and stays do not carry.
+/// Limits that were lowered because decays or stays are short.
 [[nodiscard]] std::vector<std::string> notes_of(const std::vector<identification::DecayResult>& decays,
                                                 const std::vector<identification::StayResult>& stays);
 
 /// What was found, for people.
 [[nodiscard]] std::vector<std::string> report_lines(const identification::ConditionResult& result);
 
-/// What to say of a condition in which no mode was found.
+/// Sentence for a condition without modes.
 [[nodiscard]] std::string why_no_mode(const identification::ConditionResult& result);
 
-/// Force, harmonics and ends of each stay, and what would narrow a wide interval; for people.
+/// Force, harmonics and ends of each stay, and advice for wide intervals; for people.
 [[nodiscard]] std::vector<std::string> stay_lines(const std::vector<identification::StayResult>& stays, double level);
 
 }  // namespace twindeck::steps

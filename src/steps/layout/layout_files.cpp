@@ -18,7 +18,7 @@ namespace {
 constexpr double kSamePlace_m = 1e-3;    // sensors are wider than this
 constexpr double kSameDirection = 1e-6;  // [-] what direction cosines are given to
 
-/// Whether two channels of a setup measure the same: a second sensor at a place tells nothing of another.
+/// Whether two channels of a setup measure the same motion, so that the second one adds nothing.
 bool same_measurement(const sensors::LayoutChannel& a, const sensors::LayoutChannel& b) {
   return a.setup == b.setup && (a.x_m - b.x_m).norm() < kSamePlace_m &&
          std::abs(a.cosines.dot(b.cosines)) > 1.0 - kSameDirection;

@@ -74,7 +74,7 @@ matching::Measured read_measured_modes(const std::filesystem::path& folder, cons
 
 namespace {
 
-/// Comparing and updating go by modes: that rows of load tests were left is said.
+/// Warns that rows of load tests are not used by comparison and updating.
 void warn_of_load_tests(const std::filesystem::path& folder, runner::StepContext& context) {
   const auto table = io::CsvTable::read(folder / "rows.csv", {"type"}, {}, true);
   int count = 0;

@@ -30,7 +30,7 @@ long descriptor_of(const fe::Element& element) {
   return nodes == 4 ? tetrahedron : nodes == 8 ? hexahedron : nodes == 10 ? of_ten : of_twenty;
 }
 
-/// Positions of the nodes in the order of set 2412: round the bottom with the nodes on its edges, those between, the top.
+/// Positions of the nodes in the order of set 2412: bottom with the nodes on its edges, then the nodes between, then the top.
 std::vector<std::size_t> order_of(std::size_t nodes) {
   if (nodes == 10) return {0, 4, 1, 5, 2, 6, 7, 8, 9, 3};
   if (nodes == 20) return {0, 8, 1, 9, 2, 10, 3, 11, 16, 17, 18, 19, 4, 12, 5, 13, 6, 14, 7, 15};
@@ -40,7 +40,7 @@ std::vector<std::size_t> order_of(std::size_t nodes) {
 }
 
 void add_mesh(const fe::Model& model, records::UniversalData& universal) {
-  std::map<std::string, std::vector<long>> lines;  // of each group, its members parted by 0
+  std::map<std::string, std::vector<long>> lines;  // members of each group, separated by 0
   for (const fe::Node& node : model.nodes) universal.nodes[node.id] = node.x_m;
   for (const fe::Element& element : model.elements) {
     records::UniversalElement written{element.id, descriptor_of(element), {}};

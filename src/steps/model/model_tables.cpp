@@ -17,7 +17,7 @@ namespace {
 
 std::string stay_name(const fe::Element& element) { return element.name.empty() ? std::to_string(element.id) : element.name; }
 
-/// Nodes of a part, and how many elements of each type and springs it has.
+/// Number of nodes, elements of each type and springs of a part.
 struct PartCount {
   std::set<int> nodes;
   std::map<std::string, std::size_t> pieces;
@@ -41,7 +41,7 @@ void write_stays(const fe::Model* model, const fe::PrestressState& state, const 
     const double pull = state.stay_pull_N.size() > at ? state.stay_pull_N[at] : 0.0;
     const double stress = pull / model->sections[static_cast<std::size_t>(e.section)].area_m2;
     const fe::Dischinger law{material.density_kg_m3 * model->gravity_m_s2, chord.head<2>().norm(), stress};
-    // Without pull the model leaves the sag out too, and the stay acts with the modulus of its material.
+    // Without pull the model has no sag either, and the stay has the modulus of its material.
     const double modulus = stress > 0.0 ? law.modulus(material.youngs_modulus_Pa) : material.youngs_modulus_Pa;
     const auto where_measured = [&](double value) { return e.pull_N > 0.0 ? std::optional<double>(value) : std::nullopt; };
     stays.row({stay_name(e), e.group, chord.norm(), pull, where_measured(e.pull_N), stress, modulus,
@@ -132,7 +132,7 @@ void refuse_unknown_meshes(const runner::Study& study, const std::string& varian
 
 void write_mesh_convergence(const runner::Study& study, const std::string& variant, const std::vector<std::string>& meshes,
                             int n_modes, const std::filesystem::path& file) {
-  constexpr int beyond = 5;  // solved for beyond the modes shown, so that one that moves up is among them
+  constexpr int beyond = 5;  // modes solved for above those shown, so that a mode that rises is still among them
   const auto solved = [&](const std::string& mesh) {
     return matching::solve_modes(dynamics::from_model(ponte::generate(study.model_file, variant, mesh)), n_modes + beyond);
   };

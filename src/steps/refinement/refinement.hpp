@@ -12,10 +12,10 @@ namespace twindeck::steps {
 
 struct RefinementConfig {
   long n_modes = 15;                ///< computed modes that are written and compared
-  long extra_modes = 5;             ///< solved for beyond them, so that followed modes are among them
+  long extra_modes = 5;             ///< modes solved for above those, so that followed modes are among them
   std::string variant = "refined";  ///< of the generator
-  std::vector<std::string> pairs;   ///< published assignment, used where no shape was measured; empty = by order
-  std::string condition;            ///< of the measured features; "" = as choose_condition has it
+  std::vector<std::string> pairs;   ///< published assignment, used if no shape was measured; empty: by order
+  std::string condition;            ///< of the measured features; empty: see choose_condition
   double minimum_mac = matching::usual_minimum_mac;
   double least_paired = matching::usual_least_paired;
   double maximum_frequency_error = 0.35;

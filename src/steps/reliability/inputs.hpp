@@ -75,16 +75,16 @@ struct ReliabilityConfig {
   [[nodiscard]] io::FieldTable fields();
 };
 
-/// A measured mode that the updated model has too.
+/// A measured mode that is paired with a mode of the updated model.
 struct MonitoredName {
   std::string measured;  ///< its name in the measurement
   reliability::MonitoredMode mode;
 };
 
-/// What the step reads.
+/// Input of the step.
 struct ReliabilityInputs {
   AerodynamicsConfig aerodynamics;  ///< of step 7
-  std::vector<std::string> models;  ///< whose critical speeds are asked for
+  std::vector<std::string> models;  ///< deployments whose critical speeds are computed
   ValidationConfig validation;      ///< of step 8
   wind::TurbulenceSet turbulence;
   std::vector<aero::DeckAerodynamics> data;

@@ -12,7 +12,7 @@ namespace {
 
 std::string dampers(const Case& of) { return of.dampers ? "on" : "off"; }
 
-/// Deviations of the 5 and 95 % quantiles.
+/// Distance of the 5 and 95 % quantiles from the median [standard deviations].
 double reach() { return two_sided_normal_quantile(0.9); }
 
 }  // namespace

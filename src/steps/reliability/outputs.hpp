@@ -14,7 +14,7 @@ namespace twindeck::steps {
 /// random.csv: `name,law,mean,deviation,low,high,label,source`, each input in its own unit.
 void write_random(const reliability::RandomVector& random, const std::filesystem::path& folder);
 
-/// Which structure a row is of. Its columns are `years,dampers,fault`: dampers off or on, fault empty or "C1 held".
+/// The structure of a row. Its columns are `years,dampers,fault`: dampers off or on, fault empty or "C1 held".
 struct Case {
   double years = 0.0;
   bool dampers = false;
@@ -26,20 +26,19 @@ struct Case {
   [[nodiscard]] bool same_but_years(const Case& other) const { return dampers == other.dampers && fault == other.fault; }
 };
 
-/// A probability of a limit state in a mean wind.
+/// A probability of exceeding a limit state in a mean wind.
 struct FragilityRow {
-  std::string
-      limit_state;  ///< stability, comfort_vertical, comfort_lateral, those of further guidelines, stay_slack, damper_stroke
+  std::string limit_state;  ///< stability, comfort_vertical, comfort_lateral, further guidelines', stay_slack, damper_stroke
   std::string model;
   Case of;
   double speed_m_s = 0.0;
-  std::string place;                    ///< with the largest response; empty for stability
+  std::string place;                    ///< location with the largest response; empty for stability
   double limit = 0.0, deviation = 0.0;  ///< of the response
   std::string unit;
   reliability::Excursion excursion;
 };
 /// crossings.csv: `limit_state,model,CASE,speed_m_s,place,limit,deviation,unit,crossing_rate_Hz,poisson,vanmarcke,low,high`:
-/// the place of each limit state with the largest response. fragility.csv:
+/// one row per limit state, at the location with the largest response. fragility.csv:
 /// `limit_state,model,CASE,speed_m_s,probability,low,high`.
 void write_fragility(const std::vector<FragilityRow>& rows, const std::filesystem::path& folder);
 
@@ -66,8 +65,8 @@ struct CriticalRow {
 void write_critical(const std::vector<CriticalRow>& speeds, const reliability::RandomVector& random, double design_speed_m_s,
                     const std::filesystem::path& folder);
 
-/// years.csv: `CASE,quantity,place,value,low,high,unit`: frequencies, critical speeds, static forces of stays, what is left of
-/// each section. low and high are the 5 and 95 % quantiles, empty where no spread was computed.
+/// years.csv: `CASE,quantity,place,value,low,high,unit`: frequencies, critical speeds, static forces of stays, remaining share
+/// of each section. low and high are the 5 and 95 % quantiles, empty where no spread was computed.
 struct YearRow {
   Case of;
   std::string quantity, place, unit;
@@ -78,7 +77,7 @@ void write_years(const std::vector<YearRow>& rows, const std::filesystem::path& 
 
 /// rare.csv, where the configuration asks for it:
 /// `limit_state,model,CASE,speed_m_s,method,probability,beta,variation,calls,note`, FORM and subset simulation of an excursion,
-/// each with what speaks against it.
+/// each with a note on its doubts.
 struct RareRow {
   std::string limit_state, model;
   Case of;
@@ -111,8 +110,8 @@ void write_annual(const std::vector<AnnualRow>& rows, const std::filesystem::pat
 
 /// visible.csv, a row a section of each wall:
 /// `wall,section,wall_thickness_m,smallest_loss_m,share_pct,years,located_loss_m,distance,mode,change_pct`: the smallest loss
-/// of a surface that two measurements of the frequencies reveal, when it is reached, from which loss on it is told from losses
-/// of other walls, and the mode that says most. visible_modes.csv:
+/// of a surface that two measurements of the frequencies show, the year in which it is reached, the smallest loss that is
+/// distinguished from losses of other walls, and the mode with the largest change. visible_modes.csv:
 /// `wall,experimental_mode,numerical_mode,deviation_pct,change_pct`.
 void write_visible(const std::vector<reliability::VisibleLoss>& losses, const std::vector<reliability::Wall>& walls,
                    const std::vector<MonitoredName>& monitored, const std::filesystem::path& folder);

@@ -35,8 +35,8 @@ std::string node_name(const buffeting::BridgeInWind& bridge, std::size_t node) {
   return fmt::format("{} at {:.1f} m", strip.deck, strip.station_m);
 }
 
-/// One structure in wind: a year, dampers off or on, a fault. Rows of its response are the accelerations of step 8, then forces
-/// of the stays, then strokes of the dampers.
+/// One structure in wind: in one year, with dampers off or on, with or without a fault. Rows of its response are the
+/// accelerations of step 8, then forces of the stays, then strokes of the dampers.
 struct Structure {
   Case of;
   ValidationConfig settings;
@@ -82,7 +82,7 @@ struct Structure {
   }
 };
 
-/// What the computation collects for its tables, and the moments of the year 0 at each speed.
+/// Results for the tables, and the moments of the year 0 at each speed.
 struct Found {
   std::vector<CriticalRow> critical;
   std::vector<FragilityRow> fragility;
@@ -99,7 +99,8 @@ struct Found {
   std::vector<First> first;
 };
 
-/// Rows of the nodes that move most across the deck and vertically, of the stay nearest to being slack, of the longest stroke.
+/// Rows with the largest response: of a node across the deck, of a node vertically, of the stay nearest to being slack, of a
+/// damper's stroke.
 std::vector<std::size_t> largest_rows(const Structure& s, const std::vector<reliability::SpectralMoments>& mean) {
   std::vector<std::size_t> rows;
   const auto add = [&](std::size_t count, const auto& row_of, const auto& weight) {
@@ -193,10 +194,10 @@ void add_responses(const ReliabilityConfig& config, const Structure& s, double s
     add(s.dampers.names[i], "stroke", "m", static_cast<Index>(s.first_damper() + i));
 }
 
-/// [-] probabilities at the inputs' medians between which an excursion is a rare event that both methods can find.
+/// [-] probabilities, at the medians of the inputs, between which FORM and subset simulation are used.
 constexpr double kLeastRare = 1e-12, kLargestRare = 0.5;
 
-/// An excursion by FORM and by subset simulation, where it is neither nearly certain nor out of reach.
+/// Computes an excursion by FORM and by subset simulation, if its probability is in that range.
 void add_rare(const ReliabilityConfig& config, const FragilityRow& row, const reliability::UncertainMoments& moments,
               std::size_t k, std::uint64_t seed, Found& found) {
   const double there = reliability::first_excursion(moments.mean[moments.varied[k]], row.limit, config.duration_s).vanmarcke;
@@ -266,7 +267,7 @@ void add_fatigue(const ReliabilityConfig& config, const Structure& s, double spe
   }
 }
 
-/// Responses to turbulence at each mean speed in which the bridge is stable.
+/// Responses to turbulence at each mean speed at which the bridge is stable.
 void find_responses(const ReliabilityConfig& config, const ReliabilityInputs& read, const Structure& s,
                     runner::StepContext& context, Found& found) {
   const auto critical = std::ranges::find_if(found.critical, [&](const CriticalRow& row) {
@@ -311,8 +312,8 @@ void find_responses(const ReliabilityConfig& config, const ReliabilityInputs& re
                   s.of.years, s.of.words(), left_out));
 }
 
-/// What the years make of frequencies, forces and sections. Frequencies spread with the parameters, and with the rate of
-/// corrosion in proportion to what the years changed.
+/// Frequencies, forces and sections after some years. The spread of a frequency comes from the parameters and from the rate of
+/// corrosion, in proportion to the change over the years.
 void find_years(const ReliabilityInputs& read, const fe::Model& start, const Structure& s, Found& found) {
   const reliability::VariedStructure varied(s.bridge.loaded, aero::bare_structure(s.bridge.model, 0.0), s.bridge.model.motions,
                                             s.bridge.model.modes.shapes, read.parameters);
@@ -342,7 +343,7 @@ void find_years(const ReliabilityInputs& read, const fe::Model& start, const Str
         found.years.push_back({s.of, "remaining_area", section.name, "-", wall.remaining(section, s.of.years), std::nullopt});
 }
 
-/// What two measurements of the frequencies would see of each wall's loss.
+/// Smallest loss of each wall that two measurements of the frequencies would show.
 void find_visible(const ReliabilityInputs& read, const fe::Model& start, const Structure& s, runner::StepContext& context) {
   const aero::WindModel& model = s.bridge.model;
   std::vector<MonitoredName> known;
@@ -356,8 +357,8 @@ void find_visible(const ReliabilityInputs& read, const fe::Model& start, const S
                 known, context.out);
 }
 
-/// Figures of a year under the user's wind law. Above the last speed that was computed, or where the bridge is unstable, a
-/// limit counts as exceeded.
+/// Annual hours, probabilities and damage under the user's wind law. A limit counts as exceeded above the last computed speed,
+/// and where the bridge is unstable.
 std::vector<AnnualRow> annual_rows(const reliability::WindLaw& law, const Found& found) {
   std::map<std::string, std::pair<AnnualRow, reliability::OverSpeed>> curves, bounds;
   const auto add = [](auto& into, const AnnualRow& row, double speed, double value) {

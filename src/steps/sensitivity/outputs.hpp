@@ -21,7 +21,7 @@ struct SensitivityConfig {
   double selection_threshold = 1.0;
   double singular_value_cutoff = 1.0;
   double resolution_cutoff = 0.5;
-  std::vector<std::string> published_selection;  ///< names the paper kept; empty where nothing is published
+  std::vector<std::string> published_selection;  ///< parameters that the paper selected; empty if nothing is published
 
   io::FieldTable fields();
 };

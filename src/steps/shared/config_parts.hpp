@@ -10,7 +10,7 @@
 /// Parts of configurations that several steps have.
 namespace twindeck::steps {
 
-/// The rows of a list for FieldTable::tables. @param bind  adds the fields of a new row: bind(table, row)
+/// The rows of a configured list, for FieldTable::tables. @param bind  adds the fields of a new row: bind(table, row)
 template <typename Row, typename Bind>
 [[nodiscard]] std::function<io::FieldTable()> rows_of(std::vector<Row>& rows, Bind bind) {
   return [&rows, bind] {
@@ -20,8 +20,8 @@ template <typename Row, typename Bind>
   };
 }
 
-/// The rule of an identification's keys `minimum_order` and `maximum_order`: the smallest model order is not above the largest.
-/// @param above  what stands before the two keys ("blind."), or ""
+/// Checks that `minimum_order` is not above `maximum_order`.
+/// @param above  prefix of the two keys ("blind."), or ""
 [[nodiscard]] inline std::optional<io::FieldTable::Broken> orders_exchanged(const std::string& above, long minimum,
                                                                             long maximum) {
   if (minimum <= maximum) return std::nullopt;

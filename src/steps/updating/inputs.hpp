@@ -14,7 +14,7 @@ namespace twindeck::steps {
 /// Configuration of s6_updating.
 struct UpdatingConfig : updating::UpdatingSettings {
   [[nodiscard]] io::FieldTable fields();
-  /// With as many modes as pairing by shape needs.
+  /// The configuration with as many modes as pairing by shape needs.
   [[nodiscard]] UpdatingConfig for_band_of(const matching::Measured& measured, const dynamics::LoadedModel& model) const;
 };
 
@@ -25,7 +25,7 @@ struct UpdatingInputs {
   std::vector<int>
       active;  ///< positions of the parameters to update: as listed, as s5_sensitivity selected them, or all with a range
   std::vector<int> selected;               ///< with beside_selection: positions of those that s5_sensitivity selected
-  std::vector<Eigen::VectorXd> published;  ///< their values in somebody else's result, where one is given
+  std::vector<Eigen::VectorXd> published;  ///< values of the updated parameters in another updating's result, if one is given
 };
 /// @throws InputError  where no modes were measured; for a name that is no parameter, is listed twice or has no range
 [[nodiscard]] UpdatingInputs read_updating(const UpdatingConfig& config, runner::StepContext& context);

@@ -32,7 +32,7 @@ std::optional<double> change_pct(double initial, double final_value) {
   return 100.0 * (final_value / initial - 1.0);
 }
 
-// As the search saw it: divided by the size of the initial value, by the range where that is 0.
+// Normalised as in the search: divided by the size of the initial value, or by the range where that is 0.
 double normalised(const fe::Parameter& parameter, double value) {
   return value / (parameter.initial != 0.0 ? std::abs(parameter.initial) : parameter.upper - parameter.lower);
 }
@@ -175,7 +175,7 @@ void write_updating_summary(const std::vector<matching::ComparisonRow>& comparis
   csv.save(file);
 }
 
-// How much each predicts, in a sentence.
+// Errors of both predictions, in a sentence.
 std::string words_of_regularised(const std::vector<matching::ComparisonRow>& comparison,
                                  const updating::UpdatingResult& result) {
   const double error = 100.0 * result.regularised->model_error;

@@ -26,7 +26,7 @@ namespace twindeck::steps {
 ///  - `leave_one_out.csv`: experimental_mode,numerical_mode,measured_Hz,before_Hz,fitted_Hz,predicted_Hz,error_before_pct,
 ///    error_fitted_pct,error_predicted_pct,parameters_on_bounds,followed_mac,converged, one row a pair: without updating,
 ///    fitted with all pairs, and predicted by an update to the other pairs; no file where no pair was left out
-///  - where that predicts worse than no update does: `regularised.csv`, as parameters.csv, and
+///  - if these predictions are worse than those without updating: `regularised.csv`, as parameters.csv, and
 ///    `leave_one_out_regularised.csv`, as leave_one_out.csv, of the update that is held to the ranges (updating/prior.hpp); the
 ///    manifest has a warning that says how much each predicts
 ///  - `summary.csv`: quantity,value,unit. mean_abs_error_before_pct and _after_pct over all pairs; the same with _common over
@@ -40,13 +40,13 @@ void write_updating(const std::vector<fe::Parameter>& parameters, const std::vec
                     const updating::UpdatingResult& result, runner::StepContext& context);
 
 /// The same update of the parameters that s5_sensitivity selected, beside that of a list: `selected.csv`, as parameters.csv,
-/// and `leave_one_out_selected.csv`; says how far off it is.
+/// and `leave_one_out_selected.csv`; reports its mean error.
 /// @param comparison  of the list's update, in the order of the targets
 void write_selected(const std::vector<fe::Parameter>& parameters, const std::vector<int>& selected,
                     const std::vector<matching::ComparisonRow>& comparison, const updating::UpdatingResult& result,
                     runner::StepContext& context);
 
-/// Warns of what a good fit of frequencies hides (matching/hollow_fit.hpp), parameters on their bounds among it.
+/// Warns of defects that a good fit of frequencies hides (matching/hollow_fit.hpp), and of parameters on their bounds.
 void warn_of_fit(Reporter& reporter, const matching::Measured& measured, const std::vector<matching::ComparisonRow>& comparison,
                  const std::vector<fe::Parameter>& parameters, const std::vector<int>& active,
                  const updating::UpdatingResult& result);

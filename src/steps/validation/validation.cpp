@@ -34,11 +34,10 @@
 namespace twindeck::steps {
 namespace {
 
-/// What the step found.
 struct ValidationOutcome {
   std::vector<buffeting::RunResult> results;
   std::vector<buffeting::FieldCheck> field_checks;
-  std::vector<buffeting::TimeCheck> time_checks;  ///< of the first event and run in which the bridge is stable
+  std::vector<buffeting::TimeCheck> time_checks;  ///< of the first event and run with a stable bridge
 };
 
 using Eigen::Index;
@@ -47,11 +46,11 @@ constexpr std::size_t kBeforeMeasured = 12;  ///< columns of rms.csv before the 
 
 /// rms.csv:
 /// `event,run,model,channel,direction,rms_m_s2,rms_low_m_s2,rms_high_m_s2,seed_deviation_m_s2,peak_m_s2,spectral_rms_m_s2,
-/// spectral_rms_each_frequency_m_s2`: accelerations at the monitoring points, mean over seeds with its interval, what one seed
-/// scatters, and the frequency domain's value, with derivatives frozen as in time and at each frequency's own; then
-/// `measured_rms_m_s2,error_pct, error_low_pct,error_high_pct` of the vertical direction, Eq. (18), 100 (RMS_num / RMS_exp -
-/// 1), empty without a measured side. The bounds are those of the mean over seeds. Where the bridge is unstable in an event and
-/// a run, all that is simulated is empty.
+/// spectral_rms_each_frequency_m_s2`: accelerations at the monitoring points, mean over seeds with its interval, standard
+/// deviation of one seed, and the values of the frequency domain, with derivatives frozen as in the time domain and with
+/// derivatives at each frequency; then `measured_rms_m_s2,error_pct, error_low_pct,error_high_pct` of the vertical direction,
+/// Eq. (18), 100 (RMS_num / RMS_exp - 1), empty without a measured side. The bounds are those of the mean over seeds. If the
+/// bridge is unstable in an event and run, all simulated values are empty.
 void write_rms(const std::vector<buffeting::RunResult>& results, const buffeting::BridgeInWind& bridge,
                const buffeting::MeasuredRms& measured, const ValidationConfig& config, const std::filesystem::path& folder) {
   io::CsvWriter csv({"event", "run", "model", "channel", "direction", "rms_m_s2", "rms_low_m_s2", "rms_high_m_s2",
@@ -169,7 +168,7 @@ void write_hybrid(const buffeting::BridgeInWind& bridge, const std::filesystem::
       }
       if (yaw.size() < 2) continue;
       std::ranges::sort(yaw);
-      // The outermost strips end half a strip beyond their nodes: at the end stays.
+      // The outermost strips end half a strip beyond their nodes, at the end stays.
       const double lowest = yaw[0] - 0.5 * (yaw[1] - yaw[0]), highest = yaw.back() + 0.5 * (yaw.back() - yaw[yaw.size() - 2]);
       const auto put = [&](const std::string& name, double from, double to) {
         const aero::YawRule& rule = deployment.at(zone.deck, 0.5 * (from + to) / degrees);
@@ -197,7 +196,8 @@ void write_tables(const ValidationOutcome& found, const buffeting::BridgeInWind&
   write_time_checks(found.time_checks, folder);
 }
 
-/// Channels that are the vertical acceleration at the monitoring point of their name. Warns of those that are not.
+/// Channels that measure the vertical acceleration at the monitoring point of their name. Warns of channels with such a name
+/// that do not.
 std::set<std::string> vertical_channels(runner::StepContext& context, const records::Campaign& campaign, const fe::Model& model,
                                         double tolerance_m) {
   const std::vector<std::string> points = buffeting::accelerometers(model);
@@ -214,7 +214,6 @@ std::set<std::string> vertical_channels(runner::StepContext& context, const reco
   return vertical;
 }
 
-/// Mean squares of the channels of one event.
 class MeanSquares {
  public:
   void add(const std::string& channel, const Eigen::Ref<const Eigen::VectorXd>& values) {
@@ -247,8 +246,8 @@ std::optional<std::filesystem::path> folder_of(const runner::StepContext& contex
 /// RMS of the vertical acceleration in the campaign's wind records, by event and channel [m/s²], over all records that have the
 /// channel. A channel counts for the monitoring point whose name it has, if it can be that point's vertical acceleration: an
 /// acceleration, of role "response", vertical (up or down), and within `sensor_tolerance` of the point where its position is
-/// given. A channel that has the name and is something else is left out with a warning. Empty for events whose condition is
-/// not named. `--campaign`, or the study's s0_campaign.
+/// given. Other channels with such a name are left out with a warning. Empty for events whose condition is not named.
+/// `--campaign`, or the study's s0_campaign.
 /// @throws InputError  if the campaign is there but has no wind record of a condition that is named
 buffeting::MeasuredRms measured_rms(runner::StepContext& context, const ValidationConfig& config, const fe::Model& model) {
   buffeting::MeasuredRms out;
@@ -282,7 +281,6 @@ buffeting::MeasuredRms measured_rms(runner::StepContext& context, const Validati
   return out;
 }
 
-/// What the step reads.
 struct ValidationInputs {
   wind::TurbulenceSet turbulence;
   aero::WindSettings aerodynamics;          ///< of step 7
@@ -323,7 +321,7 @@ Status run_validation(const ValidationConfig& config, const ValidationInputs& re
                           bridge.reduced.structure.size(), bridge.loaded.system.size(), bridge.model.strips.size(),
                           bridge.reduced.dampers));
 
-  // 2. Events one after the other, seeds in parallel. Where the bridge is unstable in a run there is nothing to publish of it.
+  // 2. Events one after the other, seeds in parallel. A run with an unstable bridge has no results.
   ValidationOutcome found;
   std::optional<buffeting::CheckedCase> stable;
   std::vector<std::string> unstable;

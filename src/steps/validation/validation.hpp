@@ -6,8 +6,9 @@
 /// Step 8 (paper sections 5.2 and 6, Tables 13, 14, Fig. 21).
 namespace twindeck::steps {
 
-/// The step: simulates all events and writes the tables. Of a run in which the bridge is unstable there is a warning and empty
-/// rows; where that holds for every run of every event, it has not converged.
+/// Simulates all events and writes the tables. A run in which the bridge is unstable has a warning and empty rows. If every run
+/// of every event is unstable, the status is not converged.
+/// @throws InputError  for inputs that are missing or do not fit together
 [[nodiscard]] runner::Computation read_validation(const ValidationConfig& config, runner::StepContext& context);
 
 }  // namespace twindeck::steps

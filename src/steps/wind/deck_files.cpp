@@ -23,9 +23,9 @@ namespace {
 
 aero::OutOfRange choice(const std::string& word) { return word == "hold" ? aero::OutOfRange::hold : aero::OutOfRange::refuse; }
 
-// What the deck states of laws that its data break: {law: reason}.
+// Laws that the data of a deck may break, as its configuration states them: {law: reason}.
 std::map<std::string, std::string> exceptions_of(const aero::DeckWind& deck) {
-  constexpr int least_words = 3;  // a reason is a sentence
+  constexpr int least_words = 3;  // a reason has three words or more
   std::map<std::string, std::string> exceptions;
   for (const std::string& entry : deck.exceptions) {
     const Place place{"", 0, "deck " + deck.name + ": exceptions"};
