@@ -15,14 +15,14 @@ struct ModesExplained {
 [[nodiscard]] ModesExplained modes_explained(const ReducedModel& model, const FeatureSet& features,
                                              const ScatterOptions& scatter, const ExplanationRule& rule);
 
-/// Cause `barstays` at `global` as an effect beside those of the catalogue. The extended model holds it.
+/// The cause `barstays` at `global`, as an effect like those of the catalogue. The extended model includes it.
 class BarStaysEffect {
  public:
   BarStaysEffect(std::vector<FoundStay> stays, double log_odds, const ModesExplained& before, const ModesExplained& after);
 
-  /// Puts the effect before all others. Where nothing else was found the verdict is `named`.
+  /// Puts the effect before all others. If nothing else was found, the verdict becomes `named`.
   void put_first(Diagnosis& result) const;
-  /// Takes out the entries that let one of these stays swing once more.
+  /// Removes the entries that would let one of these stays swing once more.
   void take_out_entries(Instantiated& entries) const;
 
  private:
@@ -32,7 +32,7 @@ class BarStaysEffect {
   Effect effect_;
 };
 
-/// Modes explained before and after, of the effect `barstays`; nothing where it is not among them.
+/// Numbers of explained modes before and after the effect `barstays`; empty without this effect.
 struct ExplainedGain {
   double measured = 0.0, before = 0.0, after = 0.0;
 };

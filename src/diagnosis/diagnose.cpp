@@ -9,8 +9,8 @@
 namespace twindeck::diagnosis {
 namespace {
 
-constexpr double kLeastSignature = 1e-9;  ///< [-] of an unknown on whitened rows: below it is rounding
-constexpr std::size_t kLongestMap = 40;   ///< locations: as many as a figure shows, the others score like chance
+constexpr double kLeastSignature = 1e-9;  ///< [-] of an unknown's signature on whitened rows; smaller ones are rounding
+constexpr std::size_t kLongestMap = 40;   ///< locations, as many as a figure shows; the scores of others are chance
 
 }  // namespace
 
@@ -41,7 +41,7 @@ std::vector<LocationScore> location_map(const Inference& inference, const Fit& f
 
 namespace {
 
-constexpr double kNearBound = 0.02;  ///< [-] of a parameter's range: nearer than that to its end it stands on the bound
+constexpr double kNearBound = 0.02;  ///< [-] of a parameter's range; a parameter nearer to its end counts as on the bound
 
 }  // namespace
 

@@ -23,8 +23,8 @@ struct LocationScore {
   double score;
 };
 
-/// Where the rows ask for a change: scores of every parameter, of element scatter and of the screened entries' locations, the
-/// strongest first.
+/// Scores of the locations where the rows ask for a change: of every parameter, of element scatter and of the screened entries'
+/// locations, the strongest first.
 [[nodiscard]] std::vector<LocationScore> location_map(const Inference& inference, const Fit& fit,
                                                       const std::vector<Scored>& ranking);
 
@@ -32,7 +32,7 @@ struct DiagnoseOptions {
   /// [nats] Prior odds against nothing of all causes together that act in all conditions alike: such a cause looks like an
   /// error of the model's form.
   double static_odds = -13.0;
-  int most_causes = 3;   ///< in a set; 0: the answer is told, and the model stays as it is
+  int most_causes = 3;   ///< largest set; 0: causes are reported but not put into the model
   int bootstrap = 2000;  ///< resamples of held-out blocks
   Progress progress = [](const char*, int, int) {};
 };
@@ -55,7 +55,7 @@ struct Effect {
   std::vector<EffectParameter> parameters;  ///< 90 % intervals
 };
 
-/// Posterior of a scale: its mode, and a 90 % interval.
+/// Posterior of a scale: mode and 90 % interval.
 struct ScaleEstimate {
   double level = 0.0, low = 0.0, high = 0.0;
 };
@@ -63,17 +63,17 @@ struct ScaleEstimate {
 /// A class of errors under the winning hypothesis.
 struct ErrorClass {
   std::string name;     ///< "frequencies", "shapes", "channels of shapes", "gains", "changes with state B"
-  std::string unit;     ///< what the scale is a part of: "of each mode's frequency"
+  std::string unit;     ///< quantity that the scale is relative to: "of each mode's frequency"
   ScaleEstimate scale;  ///< relative
 };
 
-/// Errors of the model and of what was measured under the winning hypothesis, and the predictive gain of a name on left-out
-/// modes.
+/// Errors of the model and of the measurement under the winning hypothesis, and the predictive gain of the named causes on
+/// left-out modes.
 struct FormReport {
   ScaleEstimate frequency, shape;     ///< of the classes of frequencies and of shapes
-  std::vector<ErrorClass> classes;    ///< those that have rows
-  std::vector<HeldOutMode> held_out;  ///< those that neither fit leaves open
-  PredictiveGain gain;                ///< of the leading causes, whether they were named or not
+  std::vector<ErrorClass> classes;    ///< classes that have rows
+  std::vector<HeldOutMode> held_out;  ///< modes that both fits predict
+  PredictiveGain gain;                ///< gain of the leading causes, whether named or not
   std::vector<std::string> warnings;  ///< to be shown with the verdict
 };
 
@@ -81,8 +81,8 @@ struct Diagnosis {
   Verdict verdict = Verdict::none;
   std::string message;                ///< one line for people
   double log_odds = 0.0;              ///< of all answers together against nothing
-  double threshold = 0.0;             ///< above which there is an answer
-  double probability = 0.0;           ///< that there is one
+  double threshold = 0.0;             ///< ln odds above which there is an answer
+  double probability = 0.0;           ///< probability of a cause
   ResidualTest residual;              ///< with the causes in the model
   std::vector<ScatterScale> scatter;  ///< with the causes in the model; filled by scatter_scales on request
   bool after_extension = false;
@@ -101,7 +101,7 @@ struct Diagnosis {
 /// Parameters of the model that a fit puts on one of their bounds, by name.
 [[nodiscard]] std::vector<std::string> parameters_on_bounds(const FeatureMap& map, const Fit& fit);
 
-/// The hypothesis' sentence with its numbers.
+/// The sentence of the effect's hypothesis, with its numbers.
 [[nodiscard]] std::string sentence_of(const Effect& effect);
 
 }  // namespace twindeck::diagnosis

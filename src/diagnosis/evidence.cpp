@@ -14,11 +14,11 @@ namespace twindeck::diagnosis {
 
 namespace {
 
-/// Below this a pair of shapes is no pair (the paper calls 0.6 and less weak).
+/// [-] MAC below which two shapes are no pair (the paper calls 0.6 and less weak).
 constexpr double kWeakMac = 0.6;
 constexpr double kAlpha = 0.05;
 
-/// The support nearest to a channel, "" where coordinates are not known.
+/// The support nearest to a channel, "" if coordinates are unknown.
 std::string nearest_support(const std::string& name, const std::vector<matching::Channel>& channels, const Places& places) {
   const auto channel =
       std::find_if(channels.begin(), channels.end(), [&](const matching::Channel& c) { return c.name == name; });
@@ -79,8 +79,8 @@ std::vector<Finding> updating_findings(const std::vector<Claim>& claims) {
   return out;
 }
 
-/// What dampers that move change in a mode's modal stiffness by the model: (f with / f without)² - 1 of its own modes, complex
-/// where the dampers are on. Nothing where the model has no partner for one of the two.
+/// Change of a mode's modal stiffness by moving dampers, according to the model: (f with / f without)² - 1 of its own modes,
+/// complex with dampers. Empty if the model has no partner for one of the two.
 std::optional<double> modelled_change(const FeatureMap& model, const std::string& mode) {
   const Prediction asked = model.predict(model.base(Eigen::VectorXd::Zero(std::ssize(model.nuisances()))), {}, false);
   double f[2] = {0.0, 0.0};
@@ -95,7 +95,7 @@ std::optional<double> modelled_change(const FeatureMap& model, const std::string
   return std::pow(f[1] / f[0], 2) - 1.0;
 }
 
-/// Modes of one name with dampers and without.
+/// Findings on modes of one name with and without dampers.
 std::vector<Finding> damper_findings(const FeatureSet& features, const Places& places, const FeatureMap* model) {
   std::map<std::string, std::array<double, 2>> f, deviation;
   for (const Row& row : features.rows) {
@@ -154,7 +154,7 @@ std::vector<ChannelFactor> channel_factors(const std::vector<Claim>& claims) {
     for (const auto& [channel, value] : values) rest[channel].push_back(value - level);
   }
   std::vector<ChannelFactor> out;
-  if (order.size() < 4) return out;  // too few others to stand off from
+  if (order.size() < 4) return out;  // too few other channels for a comparison
   const auto mean = [](const std::vector<double>& v) {
     double sum = 0.0;
     for (const double x : v) sum += x / static_cast<double>(v.size());
@@ -181,7 +181,7 @@ std::vector<Finding> account_of(const std::vector<Claim>& claims, const FeatureS
   std::vector<Finding> out = updating_findings(claims);
   for (const Finding& finding : damper_findings(features, places, model)) out.push_back(finding);
   for (const ChannelFactor& f : channel_factors(claims)) {
-    const bool one_sided = f.lowest > 1.0 || f.highest < 1.0;  // in all records, not only in their mean
+    const bool one_sided = f.lowest > 1.0 || f.highest < 1.0;  // in all records, not only on average
     if (f.p_value > kAlpha || f.records < 2 || !one_sided) continue;
     Finding found{"channel", "", {f.channel}, {"gain@channel:" + f.channel}, ""};
     const std::string support = nearest_support(f.channel, channels, places);

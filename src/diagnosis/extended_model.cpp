@@ -24,7 +24,7 @@ const Place* place_of(const Places& places, const std::string& set, const std::s
   return nullptr;
 }
 
-/// What a location called after an element is made of: a zone, or a half of a zone or group.
+/// Location "element:…": a zone, or a half of a zone or group.
 const Place* element_place(const Places& places, const std::string& id) {
   if (!id.starts_with("element:")) return nullptr;
   for (const auto& [set, list] : places.sets)
@@ -39,7 +39,6 @@ int node_position(const fe::Model& model, const std::string& id) {
   throw InputError({model.source, 0, id}, "is no node of the model", "");
 }
 
-/// Gives elements materials of their own with scaled modulus or density.
 void scale_materials(fe::Model& model, const std::vector<int>& elements, double modulus, double density,
                      const std::string& tag) {
   std::map<int, int> copies;
@@ -48,7 +47,7 @@ void scale_materials(fe::Model& model, const std::vector<int>& elements, double 
     const auto [at, is_new] = copies.try_emplace(element.material, static_cast<int>(model.materials.size()));
     if (is_new) {
       fe::Material material = model.materials[static_cast<std::size_t>(element.material)];
-      for (fe::Parameter& parameter : model.parameters)  // which go on scaling the part
+      for (fe::Parameter& parameter : model.parameters)  // they still scale the new material
         if ((parameter.target == fe::Target::youngs_modulus || parameter.target == fe::Target::density) &&
             std::find(parameter.of.begin(), parameter.of.end(), material.name) != parameter.of.end())
           parameter.of.push_back(material.name + "_" + tag);
@@ -76,7 +75,7 @@ const fe::Parameter* scale_parameter(std::vector<fe::Parameter>& parameters, Eig
   return nullptr;
 }
 
-/// Whether both stiffness and mass of a part go with a parameter.
+/// Whether a parameter changes both stiffness and mass of a part.
 bool has_stiffness_and_mass(fe::Target target) { return target == fe::Target::area || target == fe::Target::thickness; }
 
 /// Elements and springs of some groups, "a" or "a,b".
@@ -87,14 +86,14 @@ void scale_groups(fe::Model& model, const std::string& names, double stiffness, 
   std::vector<int> elements;
   for (std::size_t e = 0; e < model.elements.size(); ++e)
     if (is_one(model.elements[e].group)) elements.push_back(static_cast<int>(e));
-  std::replace(tag.begin(), tag.end(), ',', '+');  // it becomes a name in a table
+  std::replace(tag.begin(), tag.end(), ',', '+');  // it becomes part of a name in a table
   scale_materials(model, elements, stiffness, density, tag);
   for (fe::Spring& spring : model.springs)
     if (is_one(spring.group) && spring.node2 >= 0) spring.stiffness *= stiffness;
 }
 
-/// Whether a spring is of the support that a place names: "pier", or "pier fixed" for what is rigid of it where springs have
-/// the name too.
+/// Whether a spring belongs to the support of a location: "pier", or "pier fixed" for its rigid part if springs have the name
+/// too.
 bool of_support(const fe::Model& model, const fe::Spring& spring, std::string name) {
   const auto group = [](const fe::Spring& s) { return s.group.empty() ? s.name : s.group; };
   const auto rigid = [](const fe::Spring& s) { return s.name.find(kRigidSpring) != std::string::npos; };
@@ -107,7 +106,7 @@ bool of_support(const fe::Model& model, const fe::Spring& spring, std::string na
                       [&](const fe::Spring& other) { return group(other) == name && other.node2 < 0 && !rigid(other); });
 }
 
-/// The support at the node of its line that is nearest to a position.
+/// Moves the support to the node of its line nearest to a position.
 void move_support(fe::Model& model, const Place& place, const std::string& name, double position) {
   const auto stations = static_cast<int>(place.attributes.at("stations"));
   int best = 0;
@@ -120,7 +119,7 @@ void move_support(fe::Model& model, const Place& place, const std::string& name,
     if (of_support(model, spring, name) && !spring.rotation) spring.node = node;
 }
 
-/// Whether an action goes vertically: it says so and the node can move so. Else it goes in all directions.
+/// Whether an action is vertical: it says so and the node can move vertically. Otherwise it acts in all directions.
 bool is_vertical(const Candidate& candidate, const ActionSpec& action) {
   const auto named = action.text.find("direction");
   if (named == action.text.end() || named->second != "vertical") return false;
@@ -128,7 +127,6 @@ bool is_vertical(const Candidate& candidate, const ActionSpec& action) {
   return !(directions.cols() == 3 && directions.is_zero(2));
 }
 
-/// A spring from a node to the ground.
 void add_prop(fe::Model& model, int node, bool vertical, double stiffness) {
   for (int d = vertical ? 2 : 0; d < 3; ++d) {
     fe::Spring spring;
@@ -141,7 +139,7 @@ void add_prop(fe::Model& model, int node, bool vertical, double stiffness) {
   }
 }
 
-/// A body on springs beside a node: a node of its own that only moves, or only moves vertically.
+/// A body on springs at a node: a new node that only translates, or only moves vertically.
 void add_oscillator(fe::Model& model, int node, bool vertical, double mass, double frequency_Hz) {
   long id = 0;
   for (const fe::Node& n : model.nodes) id = std::max(id, n.id);
@@ -161,7 +159,7 @@ void add_oscillator(fe::Model& model, int node, bool vertical, double mass, doub
   }
 }
 
-/// A cause that is put into a finite element model, with the name of its location: "17" of "element:17".
+/// A cause to be put into a finite element model, with the name of its location: "17" of "element:17".
 struct Extension {
   fe::Model& model;
   Eigen::VectorXd& theta;
@@ -180,7 +178,7 @@ struct Extension {
   }
 };
 
-/// A factor on the stiffness or mass of a group, of elements or of a support.
+/// Puts a factor on the stiffness or mass of a group, of elements or of a support.
 bool apply_scale(Extension& to, const ActionSpec& action) {
   const Candidate& c = *to.cause.candidate;
   const bool mass = action.primitive == Primitive::scale_mass;
@@ -226,7 +224,7 @@ bool add_tie(fe::Model& model, const std::string& name, double stiffness) {
   return true;
 }
 
-/// Parameters of springs that are no longer there are taken away too: a model folder with them would be refused.
+/// Removes parameters of springs that no longer exist: a model folder with them would be refused.
 void drop_parameters_of_nothing(fe::Model& model, Eigen::VectorXd& theta) {
   const auto gone = [&](const std::string& group) {
     return std::none_of(model.springs.begin(), model.springs.end(), [&](const fe::Spring& s) { return s.group == group; });
@@ -241,7 +239,6 @@ void drop_parameters_of_nothing(fe::Model& model, Eigen::VectorXd& theta) {
   std::erase_if(model.parameters, [](const fe::Parameter& p) { return p.of.empty(); });
 }
 
-/// Dampers moved, taken away, or with another law.
 void apply_damper(Extension& to, const ActionSpec& action) {
   const auto acts_on = [&](const fe::Spring& s) { return ("," + to.name + ",").find("," + s.name + ",") != std::string::npos; };
   if (action.primitive == Primitive::damper_move) {
@@ -269,7 +266,7 @@ void apply_damper(Extension& to, const ActionSpec& action) {
   }
 }
 
-/// Puts one action into a finite element model. @return whether a model folder can say it
+/// Puts one action into a finite element model. @return whether a model folder can represent it
 bool apply(fe::Model& model, Eigen::VectorXd& theta, const Places& places, const Cause& cause, const ActionSpec& action) {
   const Candidate& c = *cause.candidate;
   Extension to{model, theta, places, cause, c.location.substr(c.location.find(':') + 1)};
@@ -306,8 +303,8 @@ bool apply(fe::ParametricSystem& system, Eigen::VectorXd& theta, const Cause& ca
   const auto named = action.text.find("direction");
   const auto is_of_node = [&](const fe::DofLabel& dof) { return dof.node == name && dof.direction <= 2; };
   const bool upwards = named != action.text.end() && named->second == "vertical" &&
-                       std::count_if(system.dofs.begin(), system.dofs.end(), is_of_node) == 3;  // else as the node can move
-  fe::Term term;  // on the diagonal, which every pattern has
+                       std::count_if(system.dofs.begin(), system.dofs.end(), is_of_node) == 3;  // else in all directions
+  fe::Term term;  // on the diagonal, which is in every pattern
   term.label = c.id();
   for (std::size_t i = 0; i < system.dofs.size(); ++i) {
     if (!is_of_node(system.dofs[i]) || (upwards && system.dofs[i].direction != 2)) continue;
@@ -337,7 +334,7 @@ ExtendedModel extended_model(const DiagnosedModel& model, const Places& places, 
   else
     out.system = model.loaded.system;
   out.holds.assign(result.effects.size(), true);
-  // Parameters first: a part that another cause gives a material of its own then starts from their values.
+  // Causes on parameters come first, so that a part with a new material starts from their values.
   for (const bool of_parameters : {true, false}) {
     for (std::size_t i = 0; i < result.effects.size(); ++i) {
       const Cause& cause = result.effects[i].cause;
@@ -365,8 +362,8 @@ CorrectedChannels corrected_channels(const std::vector<matching::Channel>& chann
       for (const ActionSpec& action : effect.cause.candidate->hypothesis->actions)
         if (action.primitive == primitive && !effect.cause.candidate->channels.empty()) use(effect.cause, action);
   };
-  // Exchanges first: a sign or a gain belongs to a channel by its recorded name, wherever that stands.
-  std::vector<std::size_t> stands(channels.size());  // (n_channels) where what a recorded name reads is
+  // Exchanges come first: a sign or a gain belongs to a channel by its recorded name.
+  std::vector<std::size_t> stands(channels.size());  // (n_channels) channel that a recorded name really reads
   std::iota(stands.begin(), stands.end(), std::size_t{0});
   const auto place = [&](const Cause& cause, std::size_t which) -> std::size_t& {
     return stands[static_cast<std::size_t>(cause.candidate->channels[which])];

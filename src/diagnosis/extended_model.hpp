@@ -8,20 +8,21 @@
 
 namespace twindeck::diagnosis {
 
-/// A model with the causes of a diagnosis in it, as far as a model's data can say them, and with the parameters of the fit.
+/// A model with the causes of a diagnosis, as far as the data of a model can represent them, and with the parameters of the
+/// fit.
 struct ExtendedModel {
-  std::optional<fe::Model> elements;  ///< of a model of finite elements
-  fe::ParametricSystem system;        ///< of a model of matrices
-  std::vector<bool> holds;            ///< whether the model holds the whole of an effect, in the order of the effects
+  std::optional<fe::Model> elements;  ///< set for a finite element model
+  fe::ParametricSystem system;        ///< set for a matrix model
+  std::vector<bool> holds;            ///< whether the model represents the whole effect, in the order of the effects
 };
 
-/// @param model  what the causes are put into  @param places  of the diagnosis
+/// @param model  that the causes are put into @param places  of the diagnosis @throws InputError  for a node not in the model
 [[nodiscard]] ExtendedModel extended_model(const DiagnosedModel& model, const Places& places, const Diagnosis& result);
 
-/// The channels with what the diagnosis found wrong with single ones put right.
+/// The channels, corrected for faults that the diagnosis found.
 struct CorrectedChannels {
   std::vector<matching::Channel> channels;
-  std::vector<double> gain;  ///< factor on what each reads
+  std::vector<double> gain;  ///< (n_channels) [-] factor on the values of each channel
 };
 [[nodiscard]] CorrectedChannels corrected_channels(const std::vector<matching::Channel>& channels, const Diagnosis& result);
 

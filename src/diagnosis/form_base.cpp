@@ -19,16 +19,16 @@ using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
 constexpr std::array<FormLevel, 3> kLevels = {{{0.01, 0.01}, {0.02, 0.03}, {0.03, 0.10}}};
-// chi² over degrees of freedom of the first fit. Up to the first number fits find their place with the least level, and a
-// cause that acts in every condition may be what is left; above it the model is grossly off, and fits stand the level at which
-// the second is met.
+// chi² over degrees of freedom of the first fit. Up to the first number, fits assume the least form error, because the misfit
+// may come from a cause that acts in every condition. Above it the model is grossly wrong, and fits assume the form error at
+// which the second number is met.
 constexpr double kGrossMisfit = 10.0, kLargestMisfit = 2.0;
-/// Conditions that the first fit is made to.
+/// Conditions used by the first fit.
 std::set<int> plainest_conditions(const FeatureSet& features) {
   std::set<int> out;
   for (const Row& row : features.rows)
     if (row.type == RowType::frequency || row.type == RowType::shape) out.insert(row.condition);
-  const auto keep = [&](const auto& unwanted) {  // as long as one condition is left
+  const auto keep = [&](const auto& unwanted) {  // unless no condition would be left
     std::set<int> left;
     for (const int c : out)
       if (!unwanted(c)) left.insert(c);
@@ -48,7 +48,7 @@ std::set<int> plainest_conditions(const FeatureSet& features) {
   return out;
 }
 
-/// Errors that set rows aside (n × n).
+/// Errors that exclude rows from a fit (n × n).
 MatrixXd set_aside(const std::vector<int>& rows, Index n) {
   MatrixXd out = MatrixXd::Zero(n, n);
   for (const int r : rows) out(r, r) = kAside * kAside;
@@ -57,13 +57,12 @@ MatrixXd set_aside(const std::vector<int>& rows, Index n) {
 
 std::vector<int> rows_outside(const FeatureSet& features, const std::set<int>& conditions) {
   std::vector<int> out;
-  if (conditions.empty()) return out;  // load tests alone have no modes: all of them count
+  if (conditions.empty()) return out;  // load tests alone have no modes; all their rows count
   for (std::size_t r = 0; r < features.rows.size(); ++r)
     if (!conditions.contains(features.rows[r].condition)) out.push_back(static_cast<int>(r));
   return out;
 }
 
-/// Fit in which some rows count for nothing.
 Fit fit_without(const Inference& informed, const std::vector<int>& rows) {
   if (rows.empty()) return informed.fit({}, {});
   FeatureMap map = informed.map();
@@ -71,7 +70,7 @@ Fit fit_without(const Inference& informed, const std::vector<int>& rows) {
   return Inference(map, informed.candidates()).fit({}, {});
 }
 
-/// chi² over the degrees of freedom of the fit to the plainest conditions; infinite where none can be made.
+/// chi² over degrees of freedom of the fit to the plainest conditions; infinite if there is no fit.
 double misfit_of_plainest(const Inference& informed) {
   const FeatureMap& map = informed.map();
   const std::set<int> plainest = plainest_conditions(map.features());
@@ -116,7 +115,7 @@ Fit first_fit(const Inference& plain, const Inference& informed) {
   const Inference exact(exact_map, plain.candidates()), quiet(quiet_map, plain.candidates());
   Fit fit = quiet.fit({}, {});
   std::vector<int> opened;
-  while (fit.made()) {  // each round opens more modes than the last
+  while (fit.made()) {  // each round opens more modes than the last one
     FitSystem system = law_system(exact, fit, {});
     if (!can_be_weighed(system)) break;
     const LawHypothesis none{system.residual,        VectorXd::Zero(1), MatrixXd(system.residual.size(), 0), {}, {},

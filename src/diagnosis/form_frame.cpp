@@ -13,7 +13,7 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-const std::string kStateContrast = "state ";                             // and its name: that state alone
+const std::string kStateContrast = "state ";                             // followed by a name: that state alone
 const std::string kFromState = "from state ", kBeforeState = "before ";  // as Candidate::when says
 
 const std::vector<std::string>& contrast_keys() {
@@ -21,7 +21,7 @@ const std::vector<std::string>& contrast_keys() {
   return keys;
 }
 
-/// Keys that an action goes by; none for what acts everywhere.
+/// Keys of conditions.toml that an action depends on; empty if it acts everywhere.
 std::vector<std::string> keys_of(const ActionSpec& action) {
   const Primitive does = action.primitive;
   if (does == Primitive::damper_friction) return {"amplitude_m", "dampers"};
@@ -66,7 +66,7 @@ std::vector<Contrast> contrasts_of(const FeatureSet& features) {
 
 namespace {
 
-/// Of what acts in some states alone.
+/// Contrast of a candidate that acts in some states only.
 int contrast_of_states(const Candidate& candidate, const std::vector<Contrast>& contrasts) {
   const auto at = [&](const auto& is_it) {
     const auto found = std::find_if(contrasts.begin(), contrasts.end(), is_it);
@@ -75,13 +75,13 @@ int contrast_of_states(const Candidate& candidate, const std::vector<Contrast>& 
   const auto named = [&](const std::string& key) { return at([&](const Contrast& c) { return c.key == key; }); };
   const std::string when = candidate.when.empty() ? kStateContrast + candidate.state : candidate.when;
   if (const int own = named(when); own >= 0) return own;
-  // What acts before a state tells this one and all after it from the others.
+  // A cause that acts before a state has the contrast between that state and the earlier ones.
   if (when.starts_with(kBeforeState)) {
     const std::string state = when.substr(kBeforeState.size());
     if (const int own = named("from " + state + " on"); own >= 0) return own;
     return named(state);
   }
-  // What acts in the first state alone tells it from every other.
+  // A cause that acts in the first state alone has the contrast between that state and all others.
   const int others = at([](const Contrast& c) { return c.key.starts_with(kFromState); });
   return others >= 0 ? others : at([](const Contrast& c) { return c.key.starts_with(kStateContrast); });
 }

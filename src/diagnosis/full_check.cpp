@@ -30,7 +30,7 @@ void grow(Symmetric& k) { k.conservativeResize(k.rows() + 1, k.cols() + 1); }
 void add_part(MatrixXd& to, double amount, const ReducedMatrix& part, const std::vector<int>& columns) {
   to.topLeftCorner(std::ssize(columns), std::ssize(columns)) += amount * part.part(columns);
 }
-/// A place's entries are among the structure's: a hundred sums of whole sparse matrices would take seconds.
+/// Adds entry by entry, because adding a hundred whole sparse matrices would take seconds.
 void add_part(Symmetric& to, double amount, const CompactMatrix& part, const std::vector<int>&) {
   const auto dof = [&](Index i) { return part.dofs()[static_cast<std::size_t>(i)]; };
   for (int c = 0; c < part.block().outerSize(); ++c)
@@ -49,9 +49,10 @@ struct Assembly {
   const std::map<std::string, std::vector<OnePlace>>& sets;
   const VectorXd& theta;                                              ///< values of the parameters
   const std::vector<int> columns;                                     ///< of the reduced basis that are used
-  std::map<std::pair<const OnePlace*, bool>, double> own_error = {};  ///< of a place's mass (true) or stiffness
+  std::map<std::pair<const OnePlace*, bool>, double> own_error = {};  ///< of a location's mass (true) or stiffness
 
-  /// The place of a candidate, in the set of its hypothesis or else in any: a support and its foundation have one name.
+  /// The location of a candidate, in the set of its hypothesis or else in any set, because a support and its foundation have
+  /// one name.
   [[nodiscard]] const OnePlace* find(const Candidate& candidate, std::size_t which) const {
     const std::string& id = candidate.places[which]->id;
     const OnePlace* found = nullptr;
@@ -70,7 +71,7 @@ struct Assembly {
   void add(Matrix& to, double amount, const Part& what) {
     if (what.size() != 0 && amount != 0.0) add_part(to, amount, what, columns);
   }
-  /// A place's matrix as the parameters have made it.
+  /// Calls with a location's matrix, including the factors of the parameters.
   template <typename Part>
   void add(Matrix& to, double amount, const Part& whole, const ParameterLaw<Part>& law) {
     law.each(whole, theta, [&](double times, const Part& part) { add(to, amount * times, part); });
@@ -131,15 +132,14 @@ struct Assembly {
       add_outer(stiffness, ratio * place.attributes.at("k_" + std::to_string(d)), b, b);
     }
   }
-  /// The first direction that an action goes by: the vertical one, which is the last, where it says so and the place can move
-  /// so, else it goes by all.
+  /// First direction of an action: the last one, vertical, if the action says so and the location can move vertically;
+  /// otherwise 0, and the action uses all directions.
   [[nodiscard]] Index first_direction(const OnePlace& place, const ActionSpec& action) const {
     const auto named = action.text.find("direction");
     const bool vertical = named != action.text.end() && named->second == "vertical" && place.directions.cols() == 3 &&
                           direction(place, 2).squaredNorm() > 0.0;
     return vertical ? 2 : 0;
   }
-  /// A spring to the ground.
   void prop(const OnePlace& place, const ActionSpec& action, double k) {
     for (Index d = first_direction(place, action); d < place.directions.cols(); ++d)
       add_outer(stiffness, k, direction(place, d), direction(place, d));
@@ -179,12 +179,12 @@ struct Assembly {
   }
 };
 
-/// omega² of a small system, ascending. What answers loads has hardly any mass, so that M is singular to rounding: where K is
-/// not, the problem is solved for 1/omega².
+/// omega² of a small system, ascending. Responses to loads have hardly any mass, so that M is singular to rounding. If K is not
+/// singular, the problem is solved for 1/omega².
 VectorXd lowest_squares(const MatrixXd& k, const MatrixXd& m) {
   if (Eigen::LLT<MatrixXd>(k).info() == Eigen::Success) {
     const Eigen::GeneralizedSelfAdjointEigenSolver<MatrixXd> inverse(m, k, Eigen::EigenvaluesOnly);
-    constexpr double kMassless = 1e-300;  // far above every frequency: no division by zero
+    constexpr double kMassless = 1e-300;  // far above every frequency, to avoid a division by zero
     return inverse.eigenvalues().reverse().cwiseMax(kMassless).cwiseInverse();
   }
   return Eigen::GeneralizedSelfAdjointEigenSolver<MatrixXd>(k, m, Eigen::EigenvaluesOnly).eigenvalues();
@@ -207,7 +207,7 @@ FullCheck check_against_full(const Structure& structure, const Places& places, c
     for (const ReducedPlace* place : cause.candidate->places)
       for (const int k : place->columns)
         if (std::find(columns.begin(), columns.end(), k) == columns.end()) columns.push_back(k);
-  // What the map assembles holds parameters and element scatter already.
+  // The matrices of the map include parameters and element scatter.
   const auto [stiffness, mass] = map.matrices(fit.base, columns);
   Assembly<MatrixXd, ReducedPlace> reduced{stiffness, mass, map.model().sets, fit.base.theta, columns};
   for (const Cause& cause : fit.causes) {
@@ -239,10 +239,10 @@ FullCheck check_against_full(const Structure& structure, const Places& places, c
 
 namespace {
 
-/// Of a frequency, in per cent: identification is taken as no better (scatter.frequency_floor), so that a smaller error of the
-/// basis is behind every measured frequency.
+/// [%] Error of a frequency by the basis that is always allowed, equal to the least error of identification
+/// (scatter.frequency_floor).
 constexpr double kBasisErrorPct = 0.1;
-/// Of the error of the model's form, beside which a tenth adds nothing that counts (half a per cent of it, in squares).
+/// [-] Part of the model's form error that is also allowed: a tenth adds half a per cent to it, in squares.
 constexpr double kPartOfForm = 0.1;
 
 /// Positions in the model of the modes that the measured ones of a state are paired with, ascending.
@@ -256,7 +256,6 @@ std::vector<int> paired_positions(const FeatureMap& map, const Fit& fit, const s
   return {out.begin(), out.end()};
 }
 
-/// The check of some of its modes.
 FullCheck of_modes(const FullCheck& all, std::vector<int> positions) {
   std::erase_if(positions, [&](int p) { return p >= all.full_Hz.size(); });
   FullCheck out{all.reduced_Hz(positions), all.full_Hz(positions), 0.0, all.message};

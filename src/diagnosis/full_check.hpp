@@ -25,11 +25,11 @@ struct FullCheck {
                                            const Fit& fit, int modes);
 
 /// The winner in the reduced basis against the full model, as the structure is in a state: in the modes that those measured in
-/// that state are paired with, or in the lowest one where none is. What acts in other states alone is left out.
+/// that state are paired with, or in the lowest one where none is. Causes that act only in other states are left out.
 [[nodiscard]] FullCheck check_paired_modes(const Structure& structure, const Places& places, const FeatureMap& map,
                                            const Diagnosis& result, const std::string& state);
 
-/// Error of the basis in frequencies up to which it is behind what is not known anyway [%].
+/// Largest allowed error of frequencies by the basis [%]: small beside the errors of measurement and model.
 [[nodiscard]] double allowed_basis_error_pct(const Diagnosis& result);
 
 }  // namespace twindeck::diagnosis

@@ -12,9 +12,9 @@ using Eigen::VectorXd;
 
 namespace {
 
-constexpr std::size_t kLongestList = 160;  ///< letters of the list of held-out modes: it stands in one line of a report
-constexpr int kFewestResampled = 3;        ///< blocks: of fewer nobody can say how much the gain varies
-constexpr double kLowerEnd = 0.05, kUpperEnd = 0.95;  ///< of the resampled gains: an interval of 90 %
+constexpr std::size_t kLongestList = 160;  ///< characters in the list of held-out modes, which is one line of a report
+constexpr int kFewestResampled = 3;        ///< blocks; with fewer, the variation of the gain is unknown
+constexpr double kLowerEnd = 0.05, kUpperEnd = 0.95;  ///< quantiles of the resampled gains: an interval of 90 %
 
 /// Squared residuals of rows that share errors.
 struct HeldOutBlock {
@@ -22,8 +22,8 @@ struct HeldOutBlock {
   int rows = 0;
 };
 
-/// The held-out rows by mode or record of one condition: entries of one shape share errors, they stay together. A row that one
-/// of the fits leaves open is predicted by neither.
+/// The held-out rows by mode or record of one condition. The entries of one shape share errors and stay together. A row that
+/// one of the fits leaves open is left out.
 std::map<std::string, HeldOutBlock> held_out_blocks(const Inference& inference, const Fit& fit_before, const Fit& fit_after) {
   const VectorXd before = standardised_residuals(inference, fit_before), after = standardised_residuals(inference, fit_after);
   std::set<int> open(fit_before.all.open.begin(), fit_before.all.open.end());

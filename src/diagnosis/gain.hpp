@@ -9,15 +9,15 @@
 
 namespace twindeck::diagnosis {
 
-/// A measured mode as all other modes predict it, without and with the causes.
+/// A measured mode predicted from all other modes, without and with the causes.
 struct HeldOutMode {
   std::string mode, condition;
-  double frequency_before_pct = 0.0, frequency_after_pct = 0.0;  ///< predicted less measured, of the measured
-  double damping_before_pct = 0.0, damping_after_pct = 0.0;      ///< the same of damping ratios with dampers on, else NaN
+  double frequency_before_pct = 0.0, frequency_after_pct = 0.0;  ///< predicted minus measured, over measured
+  double damping_before_pct = 0.0, damping_after_pct = 0.0;      ///< the same for damping ratios with dampers, else NaN
   double mac_before = 0.0, mac_after = 0.0;                      ///< [-] with the measured shape; NaN where there is none
 };
 
-/// What the causes bring on rows that the fit has not seen.
+/// Improvement by the causes on held-out rows.
 struct Gain {
   int rows = 0;
   double before = 0.0, after = 0.0;  ///< RMS of standardised held-out residuals

@@ -16,14 +16,14 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-constexpr double kScaleDeviation = 10.0;  // of a free shape scale, relative: wide enough to cost nothing
+constexpr double kScaleDeviation = 10.0;  // of a free shape scale, relative; wide enough to have no influence
 constexpr double kUnbounded = 1e3;        // prior deviations
-constexpr double kScaledEnd = 0.25;       // of magnitudes in units of twice their range: its ends
-constexpr double kSlopeStep = 1e-3;       // of a magnitude's range: for derivatives of a fit by differences
+constexpr double kScaledEnd = 0.25;       // bounds of a magnitude in units of twice its range
+constexpr double kSlopeStep = 1e-3;       // step of differences, as part of a magnitude's range
 
 VectorXd pick(const VectorXd& from, const std::vector<int>& rows) { return from(rows); }
 
-/// Lower factor of sigma + J J' + the scales' share.
+/// Lower Cholesky factor of sigma + J J' + the variance of the free scales.
 MatrixXd total_factor_of(const MatrixXd& sigma, const Eigen::Ref<const MatrixXd>& jacobian, const MatrixXd& scales) {
   MatrixXd all(jacobian.rows(), jacobian.cols() + scales.cols());
   all << jacobian, kScaleDeviation * scales;
@@ -59,7 +59,7 @@ struct Magnitudes {
   }
 };
 
-/// Change of rows by a small step, 0 in the rows of modes that the step pairs with another mode of the model: they jump.
+/// Change of rows by a small step. Rows of modes that the step pairs with another mode of the model would jump, and are 0.
 VectorXd change_of_same_modes(const FeatureMap& map, const Prediction& from, const Prediction& to) {
   VectorXd change = change_between(from, to);
   for (std::size_t m = 0; m < from.paired.size(); ++m) {
@@ -135,7 +135,7 @@ Fit Inference::fitted(const std::vector<Cause>& causes, const VectorXd& start, b
   x0.tail(k) = magnitudes.scaled(causes);
   box.lower.tail(k).setConstant(-kScaledEnd);
   box.upper.tail(k).setConstant(kScaledEnd);
-  // A step that is taken is predicted twice, without derivatives and with them: both share the solved states.
+  // An accepted step is predicted twice, without and with derivatives. Both use the same solved states.
   FeatureMap::Base base;
   const auto predict = [&](const VectorXd& x, VectorXd& g, MatrixXd* jacobian, MatrixXd* scales) {
     if (base.x.size() != n || base.x != x.head(n)) {
@@ -173,10 +173,10 @@ Fit Inference::fitted(const std::vector<Cause>& causes, const VectorXd& start, b
 }
 
 void Inference::marginalise(const VectorXd& width, Fit& fit) const {
-  // Accepted causes are marginalised like x, or the next step would find their errors again.
+  // Accepted causes are marginalised like x. Otherwise the next step would find their errors again.
   const MatrixXd& j = fit.map.jacobian;
   fit.total_factor = total_factor_of(sigma_, j, fit.map.scales);
-  if (fit.total_factor.size() == 0) {  // derivatives that are no numbers
+  if (fit.total_factor.size() == 0) {  // derivatives are not finite
     fit.chi_squared = kNotFitted;
     return;
   }

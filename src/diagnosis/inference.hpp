@@ -10,10 +10,10 @@
 
 namespace twindeck::diagnosis {
 
-/// Stands for chi² of a fit that could not be made: beyond any that data give.
+/// chi² of a fit that failed, above any real value.
 inline constexpr double kNotFitted = 1e300;
 
-/// Best account of the training rows with given causes in the model, linearised there.
+/// Best fit of the training rows with given causes in the model, linearised there.
 struct Fit {
   std::vector<Cause> causes;  ///< at their best magnitudes
   updating::JointMap map;     ///< of [x; coordinates of the causes], on the training rows
@@ -32,14 +32,14 @@ struct Fit {
 struct Scored {
   const Candidate* candidate = nullptr;
   Eigen::VectorXd a;
-  double screen = 0.0;        ///< 2 ln likelihood ratio against nothing missing, magnitudes summed over
-  double log_odds = 0.0;      ///< ln posterior odds against nothing missing
-  double remaining = 0.0;     ///< chi² that the best account with this cause leaves
-  bool fitted = false;        ///< with the cause in the model; false: on the base linearised
+  double screen = 0.0;        ///< 2 ln likelihood ratio against "nothing", summed over the magnitudes
+  double log_odds = 0.0;      ///< ln posterior odds against "nothing"
+  double remaining = 0.0;     ///< chi² of the best account with this cause
+  bool fitted = false;        ///< true: fitted with the cause in the model; false: from the linearised base
   Eigen::VectorXd signature;  ///< L^-1 (g(x, a) - g(x)) (n_train)
 };
 
-/// Fits causes and tells their effects on the training rows of a feature map (docs/diagnosis.md).
+/// Fits causes and computes their effects on the training rows of a feature map (docs/diagnosis.md).
 class Inference {
  public:
   Inference(const FeatureMap& map, const std::vector<std::unique_ptr<Candidate>>& candidates);
@@ -48,16 +48,16 @@ class Inference {
   [[nodiscard]] Fit fit(const std::vector<Cause>& causes, const Eigen::VectorXd& start) const {
     return fitted(causes, start, true);
   }
-  /// The same where it stands: `x` is not moved (the causes are none).
+  /// The same without causes and with `x` fixed.
   [[nodiscard]] Fit stand(const Eigen::VectorXd& x) const { return fitted({}, x, false); }
-  /// A change of all rows as the training rows of a fit see it, L^-1 dg; empty for an empty one.
+  /// A change dg of all rows, whitened for the training rows of a fit: L^-1 dg; empty if dg is empty.
   [[nodiscard]] Eigen::VectorXd whitened(const Fit& base, const Eigen::VectorXd& change) const;
-  /// Signature of a candidate at coordinates a, whitened; empty where it cannot be computed.
+  /// Whitened signature of a candidate at coordinates a; empty if it cannot be computed.
   [[nodiscard]] Eigen::VectorXd signature(const Fit& base, const Candidate& candidate, const Eigen::VectorXd& a) const;
 
-  /// What a candidate at coordinates a does to all rows; empty where it cannot be computed.
+  /// Change of all rows by a candidate at coordinates a; empty if it cannot be computed.
   [[nodiscard]] Eigen::VectorXd change(const Fit& base, const Candidate& candidate, const Eigen::VectorXd& a) const;
-  /// What a candidate does to all rows at the magnitudes that the screen tries.
+  /// Change of all rows by a candidate, at one of its trial magnitudes.
   struct Tried {
     Eigen::VectorXd a, change;  ///< coordinates; g(x, a) - g(x) (n_rows)
   };
@@ -67,17 +67,17 @@ class Inference {
   [[nodiscard]] const std::vector<int>& held_out() const { return held_out_; }
   [[nodiscard]] int dof() const { return static_cast<int>(training_.size()) - training_scales_; }
   [[nodiscard]] const FeatureMap& map() const { return map_; }
-  /// Of the training rows' errors (n_train × n_train).
+  /// Covariance of the training rows' errors (n_train × n_train).
   [[nodiscard]] const Eigen::MatrixXd& covariance() const { return sigma_; }
   [[nodiscard]] const std::vector<std::unique_ptr<Candidate>>& candidates() const { return candidates_; }
 
  private:
-  /// @param moves  false: at most the magnitudes and x of the start
+  /// @param moves  false: magnitudes and x of `start` are kept
   [[nodiscard]] Fit fitted(const std::vector<Cause>& causes, const Eigen::VectorXd& start, bool moves) const;
-  /// Magnitudes that the screen tries, those tuned to modes where the base has the modes.
+  /// Trial magnitudes; those tuned to modes follow the modes of the base.
   [[nodiscard]] std::vector<Eigen::VectorXd> starts_at(const Fit& base, const Candidate& candidate) const;
-  /// Whitens what a joint fit leaves, with x and the causes as scatter. @param width  of the causes' coordinates, by which
-  /// their columns were scaled (n_coordinates)
+  /// Whitens the residuals of a joint fit; x and the causes count as scatter.
+  /// @param width  scale of each cause coordinate in the Jacobian (n_coordinates)
   void marginalise(const Eigen::VectorXd& width, Fit& fit) const;
   [[nodiscard]] Eigen::MatrixXd slopes(const FeatureMap::Base& at, const std::vector<Cause>& causes, std::size_t which,
                                        const Prediction& here) const;

@@ -14,17 +14,17 @@ using Eigen::VectorXd;
 
 namespace {
 
-constexpr int kProfilePoints = 25;     ///< of a profile: the trapezoidal rule on them is far finer than 90 % intervals are told
-constexpr double kProfileReach = 4.0;  ///< [deviations] to either side of the best value: all but e^-8 of a Gaussian
-constexpr double kLeastVariance = 1e-18;  ///< of a coordinate in the cause's own units, whose ranges are of order 1
-constexpr double kEndOfPrior = 0.06;      ///< [-] of the range: an end of the interval nearer to the prior's end is the prior's
+constexpr int kProfilePoints = 25;        ///< of a profile; the trapezoidal rule is then far finer than the reported intervals
+constexpr double kProfileReach = 4.0;     ///< [deviations] to either side of the best value: all but e^-8 of a Gaussian
+constexpr double kLeastVariance = 1e-18;  ///< of a coordinate in the cause's own units, with ranges of order 1
+constexpr double kEndOfPrior = 0.06;      ///< [-] of the range; an interval's end this near to a bound is set to it
 constexpr double kLowerTail = 0.05, kUpperTail = 0.95;  ///< an interval of 90 %
 
-/// What a fit knows of the coordinates of one of its causes.
+/// Information of a fit on the coordinates of one of its causes.
 struct CauseInformation {
-  std::size_t which;    ///< among the fit's causes
-  Index first;          ///< of its coordinates among those of all causes
-  MatrixXd scaled;      ///< L^-1 dg/da of all causes, by prior deviations (n_train × n_coordinates)
+  std::size_t which;    ///< position among the fit's causes
+  Index first;          ///< position of its first coordinate among those of all causes
+  MatrixXd scaled;      ///< L^-1 dg/da of all causes, scaled by prior deviations (n_train × n_coordinates)
   MatrixXd covariance;  ///< of all coordinates (n_coordinates × n_coordinates)
   double misfit;        ///< chi² per degree of freedom, at least 1
 };
@@ -34,8 +34,8 @@ CauseInformation information_of(const Inference& inference, const Fit& fit, std:
   out.which = which;
   out.first = 0;
   for (std::size_t c = 0; c < which; ++c) out.first += fit.causes[c].a.size();
-  // Sigma_tot of the fit holds the causes' own scatter; seen through it, their information is F = S'S (I - S'S)^-1 on prior
-  // scale. Without it: Sigma_0 = Sigma_tot - D D', information D0'D0 by the matrix inversion lemma.
+  // Sigma_tot of the fit includes the scatter of the causes. With it, their information is F = S'S (I - S'S)^-1 on prior scale.
+  // Without it, Sigma_0 = Sigma_tot - D D' and the information is D0'D0, by the matrix inversion lemma.
   const MatrixXd& s = fit.cause_jacobian;
   VectorXd prior(s.cols());
   Index at = 0;
@@ -46,12 +46,12 @@ CauseInformation information_of(const Inference& inference, const Fit& fit, std:
   // Posterior covariance of prior-scaled coordinates is I - D' Sigma_tot^-1 D.
   out.covariance = MatrixXd::Identity(gram.rows(), gram.cols()) - gram;
   out.covariance = prior.asDiagonal() * out.covariance * prior.asDiagonal();
-  // Misfit that the causes leave widens their intervals as it widens the odds (Birge 1932): the errors are larger than stated.
+  // The remaining misfit widens the intervals as it reduces the odds (Birge 1932), because errors are larger than stated.
   out.misfit = std::max(1.0, fit.chi_squared / inference.dof());
   return out;
 }
 
-/// The causes with coordinate `i` of one of them at `value`; the other coordinates of that cause follow along the ridge.
+/// The causes with coordinate `i` of one of them at `value`; its other coordinates follow the ridge of the likelihood.
 std::vector<Cause> moved_along_ridge(const Fit& fit, const CauseInformation& known, Index i, double value) {
   std::vector<Cause> causes = fit.causes;
   const Cause& cause = fit.causes[known.which];
@@ -69,10 +69,9 @@ std::vector<Cause> moved_along_ridge(const Fit& fit, const CauseInformation& kno
   return causes;
 }
 
-/// ln likelihood of a prediction against that of the fit. About the optimum the residual is orthogonal to what the cause can
-/// do.
+/// ln likelihood of a prediction relative to the fit. At the optimum the residual is orthogonal to the changes by the cause.
 double log_likelihood_of(const Inference& inference, const Fit& fit, const CauseInformation& known, const Prediction& moved) {
-  // x follows too: what it can take up is in Sigma_tot, from which the cause's own part is removed (Woodbury).
+  // x adapts too: Sigma_tot includes its scatter. The cause's own scatter is removed from it (Woodbury).
   const Index k = fit.causes[known.which].a.size();
   VectorXd change(static_cast<Index>(inference.training().size()));
   for (std::size_t r = 0; r < inference.training().size(); ++r)
@@ -85,7 +84,7 @@ double log_likelihood_of(const Inference& inference, const Fit& fit, const Cause
   return -0.5 * distance / known.misfit;
 }
 
-/// The law of one coordinate by its profile likelihood.
+/// Distribution of one coordinate from its profile likelihood.
 class Profile {
  public:
   Profile(const Inference& inference, const Fit& fit, const CauseInformation& known, Index i) {
@@ -136,7 +135,7 @@ std::vector<EffectParameter> effect_parameters(const Inference& inference, const
     const UnknownSpec& spec = candidate.hypothesis->unknowns[static_cast<std::size_t>(i)];
     EffectParameter parameter{spec.name, spec.unit, candidate.physical(cause.a, i), 0.0, 0.0, false, false};
     VectorXd end = cause.a;
-    // An end that the data do not see is the prior's: the other one is a limit.
+    // An end that the data do not determine is the prior's bound. The other end is then a one-sided limit.
     const double lower = profile.quantile(kLowerTail), upper = profile.quantile(kUpperTail);
     parameter.at_low_bound = lower < low + kEndOfPrior * (high - low);
     parameter.at_high_bound = upper > high - kEndOfPrior * (high - low);

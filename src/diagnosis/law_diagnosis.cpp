@@ -26,8 +26,8 @@ using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
 constexpr double kUnitOfKinks = 0.0025;  // [-] of a scale of 1 (law_frame.hpp)
-constexpr double kFarOff = 0.08;         // of frequencies: a person is told
-constexpr double kErrorOfSizes = 0.25;   // deviation of ln(size): a law of the rows does not know the units of a wrong model
+constexpr double kFarOff = 0.08;         // error of frequencies above which a warning is given
+constexpr double kErrorOfSizes = 0.25;   // deviation of ln(size): error of a size by an inaccurate model
 
 Scored as_scored(const LawSearch& search, const LawAccount& account, const Inference& informed) {
   const LawEntry& entry = search.entries[static_cast<std::size_t>(account.members.front())];
@@ -49,7 +49,6 @@ ScaleEstimate estimate_of(const LawEvidence& evidence, int index, double unit = 
   return {level, level / reach, level * reach};
 }
 
-/// The classes that are active, by name.
 std::vector<ErrorClass> classes_in_words(const LawEvidence& evidence, const std::vector<Contrast>& contrasts) {
   std::vector<ErrorClass> out;
   const auto add = [&](int index, const std::string& name, const std::string& unit, double scale) {
@@ -90,7 +89,8 @@ class ByLaw {
     reach_verdict();
   }
 
-  /// Whether the last fit finds that a member of the set in the model has no size of its own: the rest is judged anew.
+  /// Whether the last fit finds a member of the set in the model without a size of its own. The remaining accounts are then
+  /// judged anew.
   [[nodiscard]] bool leaves_out_taken_set() {
     if (out_.effects.size() < 2 || objection().empty()) return false;
     leave_out(taken_);
@@ -105,9 +105,9 @@ class ByLaw {
   [[nodiscard]] const Fit& fitted() const { return fitted_; }
   [[nodiscard]] const std::string& reason() const { return reason_; }
   [[nodiscard]] const LawEvidence& winner() const { return winner_; }
-  [[nodiscard]] const std::vector<int>& opened() const { return opened_; }  ///< measured modes, as winner() holds them
+  [[nodiscard]] const std::vector<int>& opened() const { return opened_; }  ///< modes that are none of the model's
 
-  /// What the last fit says of the sizes may refuse the name.
+  /// Makes the verdict `unknown` if the last fit objects to the sizes.
   void refuse_sizes() {
     const std::string found = objection();
     if (found.empty()) return;
@@ -142,8 +142,8 @@ class ByLaw {
     return diagnosis::is_model_error(setting_, search_.entries[static_cast<std::size_t>(member)]);
   }
 
-  /// Verdict of the accounts that are left, and what is put into the model. False where the set that was taken has a member
-  /// without a size of its own once it is in the model: it is left out.
+  /// Judges the remaining accounts and puts the causes into the model. @return false if the set in the model has a member
+  /// without a size of its own; that set is then left out
   [[nodiscard]] bool judge_the_rest() {
     leave_out_refused_sets();
     out_.probability = 1.0 - judgement_.nothing;
@@ -162,7 +162,7 @@ class ByLaw {
     return true;
   }
 
-  /// What acts in all states alike is no change: it competes as an error of the model.
+  /// Separates errors of the model: causes that act equally in all states are no change.
   void part_model_errors() {
     const auto first = std::stable_partition(search_.accounts.begin(), search_.accounts.end(), [&](const LawAccount& account) {
       return !std::all_of(account.members.begin(), account.members.end(), [&](int m) { return is_model_error(m); });
@@ -177,7 +177,7 @@ class ByLaw {
     return log_sum(terms);
   }
 
-  /// Where no cause is left: whether the rows say that something changed at all.
+  /// Verdict without a cause: `unknown` if the rows show that something changed, else `none`.
   [[nodiscard]] Verdict without_a_cause() const {
     const double nothing = weight_of_nothing();
     return std::any_of(search_.else_weight.begin(), search_.else_weight.end(), [&](double w) { return w > nothing; })
@@ -198,8 +198,8 @@ class ByLaw {
     return false;
   }
 
-  /// A set of causes of which one has no size of its own, or predicts nothing that the others do not, is none: the next ones
-  /// are judged without it. One cause alone that is refused makes the verdict `unknown` (refuse_sizes).
+  /// Leaves out sets in which one cause has no size of its own or adds no prediction. The next accounts are judged without
+  /// them. A single cause with an objection makes the verdict `unknown` (refuse_sizes).
   void leave_out_refused_sets() {
     judge_accounts();
     const auto refused = [&] {
@@ -215,7 +215,7 @@ class ByLaw {
     }
   }
 
-  /// Refuses a cause whose interval of the size holds none.
+  /// Refuses a single cause if the interval of its size includes zero.
   void refuse_nil() {
     if (out_.verdict != Verdict::named && out_.verdict != Verdict::ambiguous) return;
     const LawAccount& leader = search_.accounts.front();
@@ -238,18 +238,18 @@ class ByLaw {
     out_.form->held_out = held_out_modes(setting_, search_);
     if (out_.verdict != Verdict::named && out_.verdict != Verdict::ambiguous) return;
     const std::vector<int>& members = search_.accounts.front().members;
-    // What is wrong with channels shows in every mode alike, and the class of gains learns it from any of them: a mode left out
-    // cannot tell.
+    // A fault of a channel appears in all modes, and any of them shows it to the class of gains. So leaving out one mode is no
+    // test.
     const bool of_channels = std::all_of(members.begin(), members.end(), [&](int m) {
       return is_of_a_channel(*search_.entries[static_cast<std::size_t>(m)].candidate);
     });
-    if (out_.form->gain.low > 0.0 || out_.form->gain.blocks.empty() || of_channels) return;  // no block: load tests alone
+    if (out_.form->gain.low > 0.0 || out_.form->gain.blocks.empty() || of_channels) return;  // load tests alone have no block
     out_.verdict = without_a_cause();
     reason_ = "the best cause does not predict modes that it was not fitted to";
   }
 
-  /// Puts the leading set into the answer: one effect for each of its causes, with the other causes that may stand in its
-  /// place. False if the leading set is refused and was left out.
+  /// Puts the leading set into the answer: one effect for each cause, with its rivals. @return false if the leading set was
+  /// refused and left out
   [[nodiscard]] bool accept() {
     std::vector<const LawAccount*> set;
     std::vector<double> probability;
@@ -285,7 +285,7 @@ class ByLaw {
     return true;
   }
 
-  /// Errors of the model in all states, beside a change or without one.
+  /// Reports errors of the model in all states, with or without a change.
   void tell_model_errors() {
     const LawAccount* account = out_.verdict == Verdict::none ? leading_model_error(search_)
                                 : out_.effects.empty()        ? nullptr
@@ -324,13 +324,13 @@ class ByLaw {
     return true;
   }
 
-  /// A cause of the answer: entries that may be it, the leader's first, and the probability of each.
+  /// One cause of the answer: its possible entries, the leader's first, with their probabilities.
   struct Slot {
     std::vector<int> members;
     std::vector<double> probability;
   };
 
-  /// Counts a set for the slots of its members; a member without a slot goes to one that the set leaves open.
+  /// Adds the probability of a set to the slots of its members. A member without a slot goes to a free one.
   void place(const LawAccount& account, double probability, std::vector<Slot>& slots) const {
     std::vector<bool> taken(slots.size(), false);
     std::vector<int> strange;
@@ -388,13 +388,12 @@ class ByLaw {
   LawEvidence winner_;
   std::vector<int> opened_;
   std::vector<Cause> causes_;
-  std::vector<int> taken_;  ///< members of the account in the model
+  std::vector<int> taken_;  ///< entries of the account in the model
   Fit fitted_;
   std::string reason_;
 };
 
-/// Fits, intervals, residual test and gain at the level of the form error that the winning hypothesis has, with the modes open
-/// that it opens.
+/// Makes fits, intervals, residual test and gain with the form error of the winning hypothesis, and with its open modes.
 void finish_by_law(const Inference& plain, const ByLaw& engine, const DiagnoseOptions& options, std::uint64_t seed,
                    Diagnosis& out) {
   const FormLevel level{out.form->frequency.level, out.form->shape.level};
@@ -425,7 +424,7 @@ void finish_by_law(const Inference& plain, const ByLaw& engine, const DiagnoseOp
   out.gain = held_out_gain(inference, out.before, out.after, options.bootstrap, seed);
 }
 
-/// Tells which measured modes are none of the model's under the answer.
+/// Reports modes that are none of the model's.
 void add_open_modes(const FeatureMap& map, const ByLaw& engine, Diagnosis& out) {
   std::vector<std::string> modes;
   for (std::size_t m = 0; m < map.measured_modes().size(); ++m) {

@@ -19,11 +19,11 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-constexpr double kKeptMagnitudes = 10.0;  // nats of the best: farther ones add nothing
-constexpr double kOneFit = 0.01;          // prior deviations: nearer fits are one
-constexpr double kStands = 1.0;           // nats that one more fit gains: less is the same fit
+constexpr double kKeptMagnitudes = 10.0;  // nats below the best; smaller terms add nothing
+constexpr double kOneFit = 0.01;          // prior deviations; nearer fits count as equal
+constexpr double kStands = 1.0;           // least gain in nats of a further fit
 
-/// Classes of a set of causes; an effect sets what is left over in each of its contrasts.
+/// Classes of a set of causes. The effect sets the scale of the remaining change in each of its contrasts.
 std::vector<ActiveClass> classes_of(const LawSearch& search, const LawSystem& system, const LawAccount& account,
                                     double effect) {
   std::vector<ActiveClass> out = lasting_classes(system);
@@ -100,8 +100,8 @@ bool acts_in_contrast(const LawSearch& search, const LawAccount& account, int co
   });
 }
 
-/// A set at a fit with its causes in the model. Of fits the one of the largest evidence counts, and it takes the place of what
-/// the screen found.
+/// Evidence of a set at a fit with its causes in the model. The fit with the largest evidence is kept and replaces the result
+/// of the screen.
 void weigh_fit(const LawSetting& setting, const LawSearch& search, LawAccount& account, const VectorXd& tau, Fit with) {
   std::vector<bool> acts(setting.plain.map().features().conditions.size(), false);
   for (const int m : account.members) {
@@ -109,11 +109,11 @@ void weigh_fit(const LawSetting& setting, const LawSearch& search, LawAccount& a
     const std::vector<bool> own = acting_conditions(setting, *entry.candidate, entry.contrast);
     for (std::size_t c = 0; c < acts.size(); ++c) acts[c] = acts[c] || own[c];
   }
-  std::vector<Contrast> contrasts = setting.contrasts;  // those of the set alone: the others' classes are absent
+  std::vector<Contrast> contrasts = setting.contrasts;  // only those of the set; the other contrasts have no class
   for (std::size_t c = 0; c < contrasts.size(); ++c)
     if (!acts_in_contrast(search, account, static_cast<int>(c))) contrasts[c].weight.setZero();
   auto system = std::make_shared<FitSystem>(law_system(setting.plain, with, contrasts, account.members.size()));
-  if (!can_be_weighed(*system)) return;  // costs the entry, not the results
+  if (!can_be_weighed(*system)) return;  // this entry is left out
   const Prediction without = setting.plain.map().predict(with.base, search.base.causes, false);
   const double effect = without.valid ? effect_on(setting.plain, change_between(without, with.all), acts) : account.effect;
   LawHypothesis hypothesis{system->residual,
@@ -233,7 +233,7 @@ Fit fit_by_own_scales(const LawSetting& setting, const LawAccount& account, cons
   const Index rows = system.residual.size();
   MatrixXd share = MatrixXd::Zero(rows, rows);
   for (std::size_t c = 0; c < system.classes.size(); ++c) {
-    if (c == kGains) continue;  // unknowns of the fit itself
+    if (c == kGains) continue;  // the gains are already unknowns of the fit
     const MatrixXd columns = account.evidence.tau[static_cast<Index>(c)] * system.classes[c];
     if (columns.size() > 0) share += linalg::square(columns);
   }

@@ -8,31 +8,32 @@
 /// Private to src/diagnosis: fits of the accounts of a search.
 namespace twindeck::diagnosis {
 
-constexpr std::size_t kMostLeading = 10;  ///< accounts that are fitted at a time
-constexpr int kLeadingRounds = 4;         ///< a fit may bring others among the leading so many times
+constexpr std::size_t kMostLeading = 10;  ///< accounts that are fitted per round
+constexpr int kLeadingRounds = 4;         ///< rounds; a fit may bring other accounts among the leading ones
 
-/// A set at the base: all combinations of its members' magnitudes, those that add nothing left out, at its own scales.
+/// Evidence of a set at the base, at its own scales, over all combinations of its members' magnitudes; negligible ones are left
+/// out.
 void score_at_base(const OneLaw& law, const LawSearch& search, LawAccount& account);
 
-/// Puts a weighed account to its fit under its own scales, whatever that takes from the weight, and on while that grows.
-/// @param weighed  an account as it stands at another fit, without a system where it cannot be weighed there
+/// Replaces an account by its fit under its own scales, even if its weight falls, and repeats while the weight grows.
+/// @param weighed  weighs an account at another fit; the result has no system if that is impossible
 void settle(const LawSetting& setting, LawAccount& account, const std::function<LawAccount(const LawAccount&, Fit)>& weighed);
 
-/// A fit of a refined account under its own scales, what it holds for none of the model's modes left open, from where the law
-/// says that the unknowns are. The evidence is linear about a fit: far from it, it promises what the model does not hold.
-/// @param aside  training rows that count for nothing
+/// Fits a refined account under its own scales, with its open modes left open, starting from the expected values of the
+/// unknowns. The evidence is linearised about a fit, so far from it the expected values may be wrong.
+/// @param aside  excluded training rows
 [[nodiscard]] Fit fit_by_own_scales(const LawSetting& setting, const LawAccount& account, const std::vector<int>& aside = {});
 
-/// Fits a set with its causes in the model from each start of the parameters. A single factor starts from both sides of one:
-/// the base may have moved a parameter of several places for one of them, and the others then look as if they had changed.
+/// Fits a set with its causes in the model from each start of the parameters. A single factor starts from both sides of one.
+/// The base may have fitted a common parameter to one location only, and the other locations would then seem to have changed.
 void refine_by_law(const LawSetting& setting, const LawSearch& search, LawAccount& account,
                    const std::vector<Eigen::VectorXd>& starts);
 
 [[nodiscard]] Eigen::VectorXd parameters_of(const LawSetting& setting, const LawAccount& account);
 
-/// Puts the leader and its rivals to their fits under their own scales, until none among them is new. A better optimiser must
-/// look neither like a further cause nor like another one: the rivals are fitted from the leader's parameters too. From their
-/// own starts they may have paired a measured mode with another mode of the model.
+/// Fits the leader and its rivals under their own scales, until no new rival appears. The rivals are fitted from the leader's
+/// parameters too, because a better start must not look like a better cause. From their own starts they may have paired a
+/// measured mode with another mode of the model.
 void settle_rivals(const LawSetting& setting, LawSearch& search);
 
 }  // namespace twindeck::diagnosis

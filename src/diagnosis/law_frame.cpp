@@ -15,13 +15,12 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-constexpr double kNoneOfTheModels = 0.05;  // of measured modes: spurious, doubled, or a hybrid that the model lacks
+constexpr double kNoneOfTheModels = 0.05;  // of measured modes: spurious, doubled, or of a part that the model lacks
 constexpr double kOpenFrequency = 0.5, kOpenDamping = 1.0;  // deviation of ln f and ln zeta of such a mode
-constexpr double kNoVariance = 1e-12;                       // of the largest pivot: rounding
-constexpr double kWideScale = 10.0;                         // [-] of a shape, relative: wide enough to cost nothing
-constexpr double kLargestColumn = 1e6;  // deviations of a row: beyond, 16 digits do not hold the unknowns' own variance
+constexpr double kNoVariance = 1e-12;                       // of the largest pivot; smaller pivots are rounding
+constexpr double kWideScale = 10.0;     // [-] relative deviation of a shape's scale; wide enough to have no influence
+constexpr double kLargestColumn = 1e6;  // deviations of a row; with larger columns, 16 digits lose the unknowns' own variance
 
-/// Columns of unknowns side by side.
 MatrixXd beside(const std::vector<MatrixXd>& parts, Index rows) {
   Index columns = 0;
   for (const MatrixXd& part : parts) columns += part.cols();
@@ -34,7 +33,7 @@ MatrixXd beside(const std::vector<MatrixXd>& parts, Index rows) {
   return out;
 }
 
-/// Variance of the rows that a prediction leaves open, and ln of the prior of so many modes that are none of the model's.
+/// Variance of the rows that a prediction leaves open, and ln prior of the number of open modes.
 std::pair<VectorXd, double> open_modes(const FeatureMap& map, const Prediction& prediction) {
   VectorXd variance = VectorXd::Zero(map.values().size());
   double log_prior = 0.0;
@@ -50,7 +49,7 @@ std::pair<VectorXd, double> open_modes(const FeatureMap& map, const Prediction& 
 
 /// Columns of a covariance, as many as its rank.
 MatrixXd columns_of(const MatrixXd& covariance) {
-  std::vector<int> rows;  // the others have no share in it
+  std::vector<int> rows;  // rows with a variance
   for (Index r = 0; r < covariance.rows(); ++r)
     if (covariance(r, r) > 0.0) rows.push_back(static_cast<int>(r));
   const Eigen::LDLT<MatrixXd> factor(covariance(rows, rows));
@@ -65,8 +64,8 @@ MatrixXd columns_of(const MatrixXd& covariance) {
   return out;
 }
 
-/// Covariance along a contrast of what has independent increments, a Wiener process that starts where the contrast is nil:
-/// smooth changes are among them, and those that turn (n_rows × n_rows). What all conditions share is the form error's.
+/// Covariance along a contrast of changes with independent increments: a Wiener process that starts at zero contrast (n_rows ×
+/// n_rows). It allows smooth changes and changes of direction. The part common to all conditions belongs to the form error.
 MatrixXd along(const Contrast& contrast, const FeatureSet& features, const std::vector<int>& rows) {
   VectorXd weight(std::ssize(rows));
   for (Index r = 0; r < weight.size(); ++r)
@@ -141,7 +140,7 @@ FitSystem law_system(const Inference& plain, const Fit& fit, const std::vector<C
   out.signatures = j.rightCols(asked);
   Index column = 0;
   for (std::size_t c = fit.causes.size() - tested; c < fit.causes.size(); ++c) {
-    const Candidate& candidate = *fit.causes[c].candidate;  // the fit has magnitudes in units of twice their range
+    const Candidate& candidate = *fit.causes[c].candidate;  // the fit's magnitudes are in units of twice their range
     for (Index k = 0; k < candidate.low.size(); ++k, ++column)
       out.signatures.col(column) /= 2.0 * (candidate.high[k] - candidate.low[k]);
   }

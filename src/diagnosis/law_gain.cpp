@@ -20,9 +20,9 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-constexpr double kGuarded = 15.0;  // nats of the leader: accounts whose predictions are weighed
+constexpr double kGuarded = 15.0;  // nats below the leader; accounts within it are part of the gain
 
-/// Sigma^-1 at an account's scales; linear magnitudes are unknowns as wide as their range.
+/// Sigma^-1 at an account's scales. Linear magnitudes are unknowns with the variance of their range (`further`).
 std::shared_ptr<const Precision> precision_at(const LawSystem& system, const VectorXd& tau, const MatrixXd& further) {
   MatrixXd sigma = system.sigma + linalg::square(further);
   for (std::size_t c = 0; c < system.classes.size(); ++c)
@@ -35,7 +35,7 @@ std::shared_ptr<const Precision> precision_at(const LawSystem& system, const Vec
   return out;
 }
 
-/// An account as a law of the rows, its weight from all rows being the account's own.
+/// An account as an Explanation. From all rows its weight is that of the account.
 Explanation explanation_by_law(const LawSearch& search, const LawAccount& account) {
   const LawHypothesis& h = account.hypothesis;
   const LawSystem& system = account.refined() ? *account.system : search.system;
@@ -50,8 +50,8 @@ Explanation explanation_by_law(const LawSearch& search, const LawAccount& accoun
   return out;
 }
 
-/// Residuals of nothing with its modes as they are paired: opened ones would pass for rows that it predicts. Rows of the modes
-/// that the answer holds for none of the model's are in neither.
+/// Residuals of "nothing" with its paired modes only: open modes would seem to be predicted. Rows of modes that are open under
+/// the answer are in neither sum.
 void tell_residuals_of_pairs(const LawSetting& setting, const LawSearch& search, const std::vector<std::vector<int>>& blocks,
                              const std::vector<Explanation>& entries, int bootstrap, std::uint64_t seed, PredictiveGain& gain) {
   std::set<int> open;
@@ -142,7 +142,7 @@ std::vector<HeldOutMode> held_out_modes(const LawSetting& setting, const LawSear
       return r < 0 ? std::numeric_limits<double>::quiet_NaN() : 100.0 * std::expm1(p.g[r] - map.values()[r]);
     };
     const Condition& condition = map.features().conditions[static_cast<std::size_t>(mode.condition)];
-    const int damping = condition.dampers_on.value_or(false) ? mode.damping : -1;  // without dampers no model computes it
+    const int damping = condition.dampers_on.value_or(false) ? mode.damping : -1;  // else not computed
     out.push_back({mode.label, condition.name, off_pct(without, mode.frequency), off_pct(with, mode.frequency),
                    off_pct(without, damping), off_pct(with, damping), without.mac[m], with.mac[m]});
   }

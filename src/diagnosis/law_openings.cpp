@@ -19,26 +19,26 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-/// What a mode may be that is none of the model's: a covariance of its rows.
+/// Covariance of the rows of a mode that is none of the model's.
 struct Opening {
   MatrixXd covariance;
   double log_prior = 0.0;
 };
 
-/// A mode that may be none of the model's. Within a state one name is one mode: it is the model's in all conditions or in none,
-/// and no hypothesis may say that it is another at a large amplitude.
+/// A mode that may be none of the model's. Within a state a label is one mode: it is the model's in all its conditions or in
+/// none.
 struct OpenMode {
   std::vector<int> modes;        ///< measured ones
-  std::vector<int> rows;         ///< among the training rows
+  std::vector<int> rows;         ///< positions among the training rows
   std::vector<double> spurious;  ///< variance of each row if the mode is spurious
   bool is_open = false;
-  Opening now;  ///< as the system holds it
+  Opening now;  ///< present opening in the system
   std::vector<Opening> openings;
 };
 
-/// Shapes at the channels that forces of any distribution give the structure at the frequency of a measured mode: modes by
-/// their distance from it (n_channels × n_modes). What the model lacks shakes the rest of the structure in such a shape. A mode
-/// within the measured band that is nobody else's is left out: the measured one would be that very mode, moved.
+/// Shapes at the channels of the structure under forces of any distribution at the frequency of a measured mode: modes weighted
+/// by their distance in frequency (n_channels × n_modes). A part that the model lacks forces the structure into such a shape.
+/// An unpaired mode within the measured band is left out, because the measured mode could be that mode itself.
 MatrixXd forced_shapes(const FeatureMap& map, const FitSystem& system, std::size_t measured) {
   const int structure = system.modes.paired[measured].structure;
   const ModelModes& modes = system.modes.structures[static_cast<std::size_t>(structure)];
@@ -56,9 +56,9 @@ MatrixXd forced_shapes(const FeatureMap& map, const FitSystem& system, std::size
   return out;
 }
 
-/// Covariance of the rows of a mode that the model lacks: real parts are one shape that the structure is forced into, times the
-/// size and the sign of each record, and ln f is one number. Besides, each record has a little of its own; damping and
-/// imaginary parts are as open as those of a spurious mode.
+/// Covariance of the rows of a mode that the model lacks. The real parts are one forced shape, with a size and a sign for each
+/// record; ln f is one number. Each record has a small variance of its own. Damping and imaginary parts are as uncertain as
+/// those of a spurious mode.
 MatrixXd of_a_missing_mode(const FeatureMap& map, const FitSystem& system, const OpenMode& open,
                            const std::vector<int>& training) {
   const MatrixXd shapes = forced_shapes(map, system, static_cast<std::size_t>(open.modes.front()));
@@ -89,10 +89,10 @@ std::vector<OpenMode> modes_that_may_open(const Inference& plain, const FitSyste
   const VectorXd sigma = system.sigma.diagonal();
   for (std::size_t m = 0; m < map.measured_modes().size(); ++m) {
     const MeasuredMode& mode = map.measured_modes()[m];
-    if (mode.real_rows.size() < 2) continue;  // no shape tells it from others
+    if (mode.real_rows.size() < 2) continue;  // without a shape it cannot be distinguished
     const VectorXd variance = variance_of_open(map, mode);
     OpenMode here;
-    bool is_aside = true;  // all its rows are; free scales make some rows of any shape as wide
+    bool is_aside = true;  // true if all its rows are excluded; free scales make single rows of any shape as wide
     for (std::size_t at = 0; at < plain.training().size(); ++at) {
       const double open = variance[plain.training()[at]];
       if (open <= 0.0) continue;
@@ -108,7 +108,7 @@ std::vector<OpenMode> modes_that_may_open(const Inference& plain, const FitSyste
     open.rows.insert(open.rows.end(), here.rows.begin(), here.rows.end());
     open.spurious.insert(open.spurious.end(), here.spurious.begin(), here.spurious.end());
   }
-  // Where states differ, a shape that changes is for causes to explain.
+  // If states differ, a changing shape may come from a cause.
   const bool may_be_missing = states_of(map.features()).size() == 1 && !system.modes.structures.empty();
   std::vector<OpenMode> out;
   for (auto& [name, open] : by_name) {
@@ -128,14 +128,13 @@ double log_density(const VectorXd& e, const MatrixXd& covariance) {
   return -0.5 * linalg::lower_solve(lower, e).squaredNorm() - lower.diagonal().array().log().sum();
 }
 
-/// A better opening of a mode, and what it gains.
 struct BetterOpening {
   double nats = 0.0;
   std::size_t mode = 0, opening = 0;
 };
 
-/// What each mode gains by another opening at these scales, those that gain nothing left out, the best first. A mode's rows are
-/// held against what all other rows predict of them.
+/// Gain of each mode by another opening at these scales, the best first, without those that gain nothing. The rows of a mode
+/// are compared with their prediction from all other rows.
 std::vector<BetterOpening> gains_of_opening(const LawSystem& system, const LawHypothesis& hypothesis, const LawEvidence& at,
                                             const std::vector<OpenMode>& modes) {
   MatrixXd sigma = system.sigma;
@@ -193,7 +192,8 @@ OpenedEvidence scored_with_openings(const Inference& plain, FitSystem& system, c
   while (more) {
     more = false;
     const std::vector<BetterOpening> gains = gains_of_opening(system, hypothesis, out.evidence, modes);
-    // All that gain by themselves, or else the one that gains most: two that explain each other need not both be open.
+    // First all modes that gain singly; if that does not help, only the best: two modes that explain each other need not both
+    // be open.
     for (std::size_t count = gains.size(); count > 0 && !more; count = count > 1 ? 1 : 0) {
       LawSystem changed = system;
       for (std::size_t k = 0; k < count; ++k) {

@@ -7,22 +7,21 @@
 /// Private to src/diagnosis.
 namespace twindeck::diagnosis {
 
-/// A hypothesis on a system in which each measured mode with a shape is one of the model's or none of them.
+/// A hypothesis on a system in which each measured mode with a shape has a mode of the model or none.
 struct OpenedEvidence {
   LawEvidence evidence;
-  std::vector<int> opened;  ///< measured modes that are none of the model's though the pairing by distance gave them one
+  std::vector<int> opened;  ///< measured modes that were paired, but are none of the model's
 };
 
-/// The mode of a hypothesis' scales, where each measured mode counts as none of the model's if that has more evidence: it is
-/// spurious, or a hybrid with something that the model does not hold. Its rows are then as open as the rows of a mode without a
-/// partner, at the prior odds of such a mode. One shape that is wholly off would otherwise raise the scale of all shapes, and
-/// whatever mends that one shape would look like a cause. Those that gain at the
-/// scales as they are are opened together, then the scales are found anew.
+/// Finds the mode of a hypothesis' scales. A measured mode counts as none of the model's if that has more evidence: it may be
+/// spurious, or belong to a part that the model lacks. Its rows are then open, at the prior odds of such a mode. Otherwise one
+/// wrong shape would raise the scale of all shapes, and a change that improves this shape would look like a cause. All modes
+/// that gain at the present scales are opened together; then the scales are found anew.
 /// @param system  Sigma_0 and its prior become those with the opened modes
 [[nodiscard]] OpenedEvidence scored_with_openings(const Inference& plain, FitSystem& system, const LawHypothesis& hypothesis,
                                                   const Eigen::VectorXd& start);
 
-/// A map in which the model may miss the rows of some measured modes by as much as those of a mode that it does not have.
+/// A map with the rows of some measured modes open, like those of a mode without a partner.
 [[nodiscard]] FeatureMap with_open(FeatureMap map, const std::vector<int>& modes);
 
 /// A fit to such a map.

@@ -18,17 +18,17 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-constexpr double kPerCent = 100.0;          // units of a class in a relative effect
-const double kShrinks[] = {0.0, 1.5, 3.0};  // of ln tau: a large cause leaves smaller errors than nothing does
-constexpr double kShows = 1e-3;             // deviations: below, these rows show nothing of an entry
+constexpr double kPerCent = 100.0;          // units of a class per relative effect
+const double kShrinks[] = {0.0, 1.5, 3.0};  // reductions of ln tau: a large cause leaves smaller errors than "nothing" does
+constexpr double kShows = 1e-3;             // deviations; entries with smaller changes are left out
 
 double log_sum_of(const VectorXd& v) {
   const double top = v.maxCoeff();
   return top + std::log((v.array() - top).exp().sum());
 }
 
-/// Of a factor the best magnitude on the other side of one, where a fit may find another optimum; empty for all else.
-/// @param terms  of each magnitude that was tried, at `each` sizes
+/// For a factor: the best magnitude on the other side of one, where a fit may find another optimum. Empty for other unknowns.
+/// @param terms  of each trial magnitude, at `each` sizes
 VectorXd best_across(const LawEntry& entry, const VectorXd& a, const VectorXd& terms, std::size_t each) {
   if (entry.candidate->hypothesis->unknowns.empty() || entry.candidate->hypothesis->unknowns[0].name != "factor") return {};
   VectorXd out;
@@ -42,7 +42,7 @@ VectorXd best_across(const LawEntry& entry, const VectorXd& a, const VectorXd& t
   return out;
 }
 
-/// Scales at which entries are looked at, with the volume of Laplace's approximation.
+/// Scales at which entries are weighed, with the volume of Laplace's approximation.
 struct ScreenPoint {
   VectorXd tau;
   double log_volume = 0.0;
@@ -60,7 +60,7 @@ class Screen {
         residual_(law.whitened(search.system.residual)),
         signatures_(law.whitened(search.system.signatures)) {}
 
-  /// The modes of nothing and of something else.
+  /// Finds the modes of "nothing" and of "something else".
   void weigh_nothing() {
     LawHypothesis none{search_.system.residual,        VectorXd::Zero(1), MatrixXd(search_.system.residual.size(), 0), {}, {},
                        lasting_classes(search_.system)};
@@ -79,7 +79,7 @@ class Screen {
     }
   }
 
-  /// Every entry alone, its magnitudes summed over, at the best of the points.
+  /// Weighs every entry alone, summed over its magnitudes, at the best of the points.
   void weigh_entries() {
     search_.accounts.resize(search_.entries.size());
     for (std::size_t i = 0; i < search_.entries.size(); ++i) {
@@ -124,7 +124,7 @@ class Screen {
   }
 
  private:
-  /// A mode and the same errors made smaller; of nothing also with a little left over in each contrast.
+  /// Adds a mode, and the same scales made smaller; for "nothing" also with a small scale in each contrast.
   void add_point(const LawEvidence& evidence, double value, int contrast) {
     if (evidence.tau.size() == 0) return;
     for (const double shrink : kShrinks) {
@@ -140,7 +140,7 @@ class Screen {
     }
   }
 
-  /// ln prior of a point's scales beside an effect.
+  /// ln prior of a point's scales, given an effect.
   [[nodiscard]] double prior_of(const ScreenPoint& point, double effect) const {
     double sum = 0.0;
     for (Index c = 0; c < point.tau.size(); ++c)
@@ -162,7 +162,7 @@ Index first_of_equals(const VectorXd& terms) {
   return std::find_if(terms.begin(), terms.end(), [&](double t) { return t >= top - rounding; }) - terms.begin();
 }
 
-// A wrong label of a mode looks like an error of the form.
+// A wrong label of a mode is not included: it looks like an error of the form.
 bool is_of_a_channel(const Candidate& candidate) { return candidate.hypothesis->measurement && !candidate.channels.empty(); }
 
 std::vector<ActiveClass> lasting_classes(const LawSystem& system) {
@@ -207,7 +207,7 @@ void collect_entries(const LawSetting& setting, LawSearch& search, const std::ve
         all[i].tried = setting.informed.tried(search.base, *candidates[i]);
       },
       [&](int done, int of) { setting.progress("entries tried", done, of); });
-  std::map<std::pair<bool, int>, double> share;  // of a class of causes: channels, or by contrast
+  std::map<std::pair<bool, int>, double> share;  // prior of a class of causes: channels, or one contrast
   const auto class_of = [](const LawEntry& e) { return std::pair(is_of_a_channel(*e.candidate), e.contrast); };
   std::vector<VectorXd> columns;
   for (LawEntry& entry : all) {
@@ -225,7 +225,7 @@ void collect_entries(const LawSetting& setting, LawSearch& search, const std::ve
     search.entries.push_back(std::move(entry));
   }
   for (LawEntry& entry : search.entries) {
-    // An error of the model beside a change is no answer, and no alarm hangs on its odds.
+    // An error of the model beside a change is no answer, so it needs no low prior odds.
     const bool in_all_alike = entry.contrast < 0 && !is_of_a_channel(*entry.candidate) && !is_model_error(setting, entry);
     entry.log_prior = entry.candidate->log_prior - std::log(share.at(class_of(entry))) +
                       (in_all_alike ? setting.static_odds : kOddsOfAChange);

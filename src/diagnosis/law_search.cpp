@@ -22,10 +22,10 @@ using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
 constexpr std::size_t kLeading = 6, kOfFewPlaces = 6;
-constexpr double kNear = 12.0, kNearShare = 0.3;  // nats of the best, or part of what it has over nothing: worth a fit
-constexpr double kFarBelow = -8.0;  // nats against nothing: where the best entry is below, no fit brings it to five per cent
+constexpr double kNear = 12.0, kNearShare = 0.3;  // nats below the best, or part of its lead, that get a fit
+constexpr double kFarBelow = -8.0;  // nats against "nothing"; below it no fit could reach a probability of five per cent
 
-/// Scales that a set starts from: those of its best member that was scored, with what is left over in each of its contrasts.
+/// Start scales of a set: those of its best scored member, with a scale in each of its contrasts.
 VectorXd start_of_set(const LawSearch& search, const LawAccount& set) {
   VectorXd out = search.none.tau;
   const auto is_member = [&](const LawAccount& account) {
@@ -40,8 +40,8 @@ VectorXd start_of_set(const LawSearch& search, const LawAccount& set) {
   return out;
 }
 
-/// Entries that promise most at the fit with the leading account in the model, each beside it. Of `among` the leading ones are
-/// left, the best first: what promises nothing beside the leader is not tried beside more.
+/// Sets of the leader with one further entry, for the most promising entries at the fit with the leader in the model. Entries
+/// in `among` that promise nothing are removed, so that they are not tried in larger sets.
 std::vector<LawAccount> sets_beside(const LawSetting& setting, const LawSearch& search, const LawAccount& leader,
                                     std::vector<const LawEntry*>& among) {
   LawSearch beside;
@@ -79,7 +79,7 @@ std::vector<LawAccount> sets_beside(const LawSetting& setting, const LawSearch& 
   return out;
 }
 
-/// Fits sets from given parameters and puts them among the accounts, each in the place of the same set if it is the better one.
+/// Fits sets from given parameters and adds them to the accounts; the better of two equal sets is kept.
 void add_fitted_sets(const LawSetting& setting, LawSearch& search, std::vector<LawAccount> sets, const VectorXd& x) {
   parallel_for_told(
       sets.size(), [&](std::size_t i) { refine_by_law(setting, search, sets[i], {x}); },
@@ -102,8 +102,8 @@ std::vector<const LawEntry*> all_entries(const LawSearch& search) {
   return out;
 }
 
-/// Further causes beside the leading account, looked for with it in the model: one that is large hides the others from the
-/// base, where modes may be none of the model's for its sake.
+/// Looks for further causes with the leading account in the model. A large cause hides others at the base, because modes may be
+/// open there.
 void look_beside_leader(const LawSetting& setting, LawSearch& search) {
   std::vector<const LawEntry*> among = all_entries(search);
   for (std::size_t size = 1; size < kMostInASet; ++size) {
@@ -115,8 +115,7 @@ void look_beside_leader(const LawSetting& setting, LawSearch& search) {
   }
 }
 
-/// Rivals of each member of a leading set, looked for with the others in the model: what stood beside one of them alone has not
-/// been held against the rest of the catalogue.
+/// Looks for rivals of each member of a leading set, with the other members in the model, in the whole catalogue.
 void exchange_members(const LawSetting& setting, LawSearch& search) {
   if (search.accounts.empty() || !search.accounts.front().refined()) return;
   const LawAccount leader = search.accounts.front();
@@ -136,7 +135,7 @@ void exchange_members(const LawSetting& setting, LawSearch& search) {
   }
 }
 
-/// Accounts that are worth a fit of their own: the best and the best of each family.
+/// Accounts that get a fit: the best ones and the best one of each family.
 std::vector<LawAccount*> leading_accounts(LawSearch& search, const std::set<int>& done) {
   const double best = search.accounts.front().log_weight, over = std::max(0.0, best - search.none.log_evidence);
   const double near = best - std::max(kNear, kNearShare * over);
@@ -154,12 +153,12 @@ std::vector<LawAccount*> leading_accounts(LawSearch& search, const std::set<int>
     const Candidate& candidate = *candidate_of(account);
     const std::string& family = candidate.hypothesis->id;
     const bool first_of_family = families.insert(family).second;
-    // The base has taken a cause at one of few places up into a parameter of them all, so that the screen sees its reverse at
-    // the others.
+    // A family with few locations is fitted at all of them. The base may have fitted a common parameter to one location, and
+    // the screen would then favour the opposite change at the others.
     if (first_of_family && account.log_weight > search.none.log_evidence && places[family] <= kOfFewPlaces)
       wholly.insert(family);
     const bool near_best = (i < kLeading || first_of_family) && account.log_weight > near;
-    // Another family at the leader's own place is its nearest rival, however coarse the screen's magnitudes are.
+    // Another family at the leader's location is its nearest rival; it is always fitted, because trial magnitudes are coarse.
     const bool same_place = candidate.location == leading_place && leading_place.find(':') != std::string::npos;
     const bool worth = wholly.contains(family) || same_place || (near_best && out.size() < kMostLeading);
     if (worth && !done.contains(account.members.front())) out.push_back(&account);
@@ -189,7 +188,7 @@ const LawAccount& account_to_take(const std::vector<const LawAccount*>& possible
 
 namespace {
 
-/// No cause, and at most one contrast's class, at a fit without causes of the catalogue.
+/// "Nothing", or a change in one contrast, at a fit without catalogue causes.
 LawAccount weigh_without(const LawSetting& setting, FitSystem system, const std::vector<ActiveClass>& contrast,
                          const VectorXd& tau, const Fit& with) {
   system.signatures.resize(system.residual.size(), 0);
@@ -207,8 +206,8 @@ LawAccount weigh_without(const LawSetting& setting, FitSystem system, const std:
   return account;
 }
 
-/// No cause, and "something else" in each contrast, as they are held against the causes: from a fit without causes, with modes
-/// of their own opened and under their own scales. The better one of two starts counts.
+/// Weighs "nothing", and "something else" in each contrast, in the same way as causes: from a fit without causes, with their
+/// own open modes and scales. The better of two starts is kept.
 void weigh_nothing(const LawSetting& setting, LawSearch& search, const Fit& start) {
   if (!start.made()) return;
   const FitSystem at_start = law_system(setting.plain, start, setting.contrasts);
@@ -252,7 +251,7 @@ LawSearch search_by_law(const LawSetting& setting, const Fit& base) {
   if (out.accounts.empty() || out.accounts.front().log_weight < out.none.log_evidence + kFarBelow) return out;
   const std::vector<VectorXd> starts = {out.base.map.x.head(std::ssize(setting.plain.map().nuisances())), {}};
   std::set<int> done;
-  for (int round = 0; round < kLeadingRounds; ++round) {  // a fit may bring other entries among the leading
+  for (int round = 0; round < kLeadingRounds; ++round) {  // a fit may bring other entries among the leading ones
     const std::vector<LawAccount*> these = leading_accounts(out, done);
     if (these.empty()) break;
     parallel_for_told(
@@ -263,7 +262,6 @@ LawSearch search_by_law(const LawSetting& setting, const Fit& base) {
         },
         [&](int fitted, int of) { setting.progress("causes fitted", fitted, of); });
     for (const LawAccount* account : these) done.insert(account->members.front());
-    // What no fit and no scales can be found for is no account.
     std::erase_if(out.accounts, [&](const LawAccount& a) { return done.contains(a.members.front()) && !a.scored; });
     if (out.accounts.empty()) return out;
     sort_accounts(out.accounts);
@@ -274,7 +272,7 @@ LawSearch search_by_law(const LawSetting& setting, const Fit& base) {
       out, law,
       [&](LawAccount& account) {
         account.evidence.tau = start_of_set(out, account);
-        score_at_base(law, out, account);  // the magnitudes that a fit starts at
+        score_at_base(law, out, account);  // start magnitudes of the fit
         if (account.scored) refine_by_law(setting, out, account, starts);
       },
       setting.progress, sets);
@@ -284,7 +282,7 @@ LawSearch search_by_law(const LawSetting& setting, const Fit& base) {
   settle_rivals(setting, out);
   exchange_members(setting, out);
   settle_rivals(setting, out);
-  // A better optimiser must not look like a cause either: nothing too is fitted from the leader's parameters.
+  // "Nothing" is fitted from the leader's parameters too, because a better start must not look like a cause.
   if (!out.accounts.empty() && out.accounts.front().refined())
     weigh_nothing(setting, out, setting.informed.fit(base.causes, parameters_of(setting, out.accounts.front())));
   return out;

@@ -17,11 +17,11 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-constexpr double kPromises = 3.0;  ///< nats that a set may be behind the best smaller one on the linearised base
+constexpr double kPromises = 3.0;  ///< nats that a set may be below the best smaller one on the linearised base
 
-/// Entries at one choice of scales: products of their signatures with the residual and with one another.
+/// Products of the entries' signatures with the residual and with each other, at one choice of scales.
 struct LookAtSets {
-  std::set<int> contrasts;  // whose class is active
+  std::set<int> contrasts;  // contrasts whose class is active
   VectorXd along;
   MatrixXd products;
 };
@@ -45,7 +45,7 @@ class SetScreen {
     std::size_t looked = 0;
     for (const LawAccount& account : search.accounts) {
       if (!account.scored) continue;
-      if (looked++ == kTried) break;  // their scales are those that sets are looked at with
+      if (looked++ == kTried) break;  // sets are weighed at the scales of these accounts
       const OneLaw::Point at = law.at(account.evidence.tau);
       if (at.lower.size() == 0) continue;
       const MatrixXd s = law.solved(at, signatures);
@@ -66,7 +66,7 @@ class SetScreen {
     return diagnosis::is_same_cause(of(a), of(b));
   }
 
-  /// ln likelihood of a set over that of no cause, magnitudes summed over, prior included, at the best of the scales.
+  /// ln likelihood of a set relative to no cause, summed over magnitudes, with the prior, at the best scales.
   [[nodiscard]] double promise(const std::vector<std::size_t>& set) const {
     double best = -1e300, prior = 0.0;
     std::set<int> contrasts;
@@ -125,7 +125,6 @@ void keep_best(std::vector<Promising>& found) {
   if (found.size() > kTried) found.resize(kTried);
 }
 
-/// Sets of one more than those given.
 std::vector<Promising> larger_sets(const SetScreen& screen, const std::vector<Promising>& smaller) {
   std::set<std::vector<std::size_t>> sets;
   for (const Promising& from : smaller)
@@ -173,7 +172,7 @@ void add_sets(const LawSearch& search, const OneLaw& law, const std::function<vo
       leading = std::max(leading, account.log_weight);
       found.push_back(std::move(account));
     }
-    if (!(leading > best)) return;  // no larger one leads either
+    if (!(leading > best)) return;  // larger sets would not lead either
     best = leading;
     smaller = std::move(larger);
   }

@@ -7,13 +7,13 @@ namespace twindeck::diagnosis {
 
 namespace {
 
-constexpr int kFewestBlocks = 3;  // that can be drawn anew
+constexpr int kFewestBlocks = 3;  // blocks, for resampling
 
 }  // namespace
 
 std::vector<std::vector<int>> mode_blocks(const Inference& plain, const Fit& fit, bool by_condition) {
   const FormModes modes = plain.map().form_modes(fit.base, fit.causes);
-  std::map<int, int> place;  // of a row among the training rows
+  std::map<int, int> place;  // position of a row among the training rows
   for (std::size_t r = 0; r < plain.training().size(); ++r) place[plain.training()[r]] = static_cast<int>(r);
   std::map<std::string, std::vector<int>> blocks;
   for (std::size_t m = 0; m < modes.paired.size(); ++m) {

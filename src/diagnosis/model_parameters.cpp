@@ -17,14 +17,14 @@ ParameterEstimate estimate(const Inference& inference, const Fit& fit, std::size
   const auto column = static_cast<Index>(j);
   const auto l = fit.total_factor.triangularView<Eigen::Lower>();
   const Eigen::VectorXd seen = l.solve(fit.map.jacobian.col(column));
-  const double left = std::clamp(1.0 - seen.squaredNorm(), 0.0, 1.0);  // of the prior's variance
+  const double left = std::clamp(1.0 - seen.squaredNorm(), 0.0, 1.0);  // remaining share of the prior's variance
   const double misfit = std::max(1.0, fit.chi_squared / inference.dof());
   const double x = fit.map.x[column], reach = kReachOfNinety * std::sqrt(misfit * left);
   const auto physical = [&](double u) { return v.mean + v.deviation * std::clamp(u, v.lower, v.upper); };
   return {physical(x), physical(x - reach), physical(x + reach)};
 }
 
-/// What the causes make of a parameter: its value times the factor of an accepted cause at its group.
+/// Applies accepted causes to a parameter: its value times the factor of a cause at its group.
 void scale_by_causes(const Diagnosis& result, const fe::Parameter& parameter, ParameterEstimate& after) {
   for (const Effect& effect : result.effects) {
     const Candidate& candidate = *effect.cause.candidate;
@@ -37,7 +37,7 @@ void scale_by_causes(const Diagnosis& result, const fe::Parameter& parameter, Pa
       continue;
     }
     const double value = after.value * p.value;
-    const auto deviation = [&](double end, double end_of_factor) {  // of the logarithms, in quadrature
+    const auto deviation = [&](double end, double end_of_factor) {  // of logarithms, in quadrature
       const double own = end / after.value > 0.0 ? std::log(end / after.value) : 0.0;
       return std::hypot(own, std::log(end_of_factor / p.value));
     };

@@ -12,7 +12,7 @@ struct ParameterEstimate {
   double value = 0.0, low = 0.0, high = 0.0;
 };
 
-/// A free parameter as the model fitted within its bounds has it, and as the extended model does.
+/// A free parameter in the model fitted within its bounds, and in the extended model.
 struct ModelParameter {
   std::string name, unit;
   ParameterEstimate before, after;

@@ -4,7 +4,7 @@
 
 namespace twindeck::diagnosis {
 
-/// Is told what is being done and how much of it, never twice at a time.
+/// Reports the present task and its progress. Calls never overlap.
 using Progress = std::function<void(const char* what, int done, int of)>;
 
 }  // namespace twindeck::diagnosis

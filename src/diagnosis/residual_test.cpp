@@ -16,7 +16,7 @@ namespace {
 
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
-using Blocks = std::map<std::vector<int>, std::string>;  // positions among the training rows: equal blocks are one
+using Blocks = std::map<std::vector<int>, std::string>;  // positions among the training rows; equal blocks are merged
 
 bool of_shape(const Row& row) { return row.type == RowType::shape || row.type == RowType::shape_imag; }
 
@@ -36,13 +36,13 @@ Blocks blocks_of(const Inference& inference) {
       by_name["channel " + features.channels[static_cast<std::size_t>(row.channel)]].push_back(at);
   }
   Blocks blocks;
-  const std::size_t most = inference.training().size() * 2 / 3;  // more than that is the test of all rows again
+  const std::size_t most = inference.training().size() * 2 / 3;  // a larger block would repeat the test of all rows
   for (const auto& [name, rows] : by_name)
     if (rows.size() >= 2 && rows.size() <= most) blocks.emplace(rows, name);
   return blocks;
 }
 
-/// Free scales of shapes whose every row is in the block: nothing outside says what they are.
+/// Number of free shape scales with all their rows in the block, so that other rows do not determine them.
 int free_scales(const Inference& inference, const std::vector<int>& block) {
   std::set<int> rows;
   for (const int i : block) rows.insert(inference.training()[static_cast<std::size_t>(i)]);
@@ -55,14 +55,14 @@ int free_scales(const Inference& inference, const std::vector<int>& block) {
   return count;
 }
 
-/// Slopes against what varies between conditions: one direction for each mode in each state of the dampers.
+/// Slopes against a variable that differs between conditions: one direction for each mode in each state of the dampers.
 struct Trends {
   std::string name;  ///< "frequency_Hz against temperature"
   int rows = 0;
-  MatrixXd directions;  ///< (n_training × n_slopes) distance of each row from the mean of its mode
+  MatrixXd directions;  ///< (n_training × n_slopes) value of the variable minus its mean over the mode's rows
 };
 
-/// What a condition says of a variable, in the scale in which effects are nearest to straight lines.
+/// Value of a variable in a condition, on the scale in which effects are nearly linear.
 using Variable = std::optional<double> (*)(const Condition&);
 const std::vector<std::pair<std::string, Variable>>& variables() {
   static const std::vector<std::pair<std::string, Variable>> all = {
@@ -105,7 +105,7 @@ std::vector<Trends> trends_of(const Inference& inference) {
         mean /= weights;
         VectorXd slope = VectorXd::Zero(static_cast<Eigen::Index>(inference.training().size()));
         for (const auto& [at, v] : points) slope[at] = v - mean;
-        if (slope.norm() <= 1e-9 * (1.0 + std::abs(mean))) continue;  // measured at one value
+        if (slope.norm() <= 1e-9 * (1.0 + std::abs(mean))) continue;  // all values are equal
         slopes.push_back(slope);
         trends.rows += static_cast<int>(points.size());
       }
@@ -125,7 +125,7 @@ ResidualTest residual_test(const Inference& inference, const Fit& fit) {
   test.statistic = fit.chi_squared;
   test.dof = inference.dof();
   test.p_value = chi_squared_tail(test.statistic, test.dof);
-  if (fit.total_factor.size() == 0) return test;  // a model that predicts none of the rows
+  if (fit.total_factor.size() == 0) return test;  // the model predicts none of the rows
   const auto lower = fit.total_factor.triangularView<Eigen::Lower>();
   const MatrixXd inverse_factor = lower.solve(MatrixXd::Identity(fit.whitened.size(), fit.whitened.size()));
   const VectorXd u = inverse_factor.transpose() * fit.whitened;

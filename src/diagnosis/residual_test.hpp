@@ -17,7 +17,7 @@ struct BlockMisfit {
   double p_value = 1.0;
 };
 
-/// The misfit that bounds, element scatter, the model's errors and the named causes leave.
+/// The misfit that remains after bounds, element scatter, model errors and named causes.
 struct ResidualTest {
   double statistic = 0.0;  ///< of all training rows
   int dof = 0;
@@ -25,7 +25,7 @@ struct ResidualTest {
   std::vector<BlockMisfit> blocks;  ///< the least likely first
   double block_p_value = 1.0;       ///< p-value of the least likely block, times the number of blocks (Bonferroni)
 
-  /// Takes a chi² of all rows under another law instead.
+  /// Replaces the chi² of all rows by that of another law.
   void take_total(double chi_squared, long degrees);
 };
 

@@ -124,7 +124,7 @@ void hold_out(const std::vector<std::string>& rules, FeatureSet& features) {
     if (rule == "none") continue;
     const auto slash = rule.find('/'), second = slash == std::string::npos ? slash : rule.find('/', slash + 1);
     bool any = false;
-    std::set<std::string> second_modes;  // "condition/every_second": those at even places in ascending frequency
+    std::set<std::string> second_modes;  // "condition/every_second": even places in ascending frequency
     if (rule.ends_with("/every_second")) {
       std::map<double, std::string> ascending;
       for (const Row& row : features.rows)

@@ -20,8 +20,7 @@ constexpr double kReach = 1.609;         // ln 5
 constexpr double kFreeDeviation = 10.0;  // of a shape's own scale, as in the fit
 constexpr std::array kElementScatter = {Nuisance::Kind::place, Nuisance::Kind::stay_pull, Nuisance::Kind::gain};
 
-/// The rows' law with the logarithms of its scales as what is free: one for each type that occurs, the last for element
-/// scatter.
+/// Likelihood of the rows as a function of the logarithms of scales: one for each row type, the last for element scatter.
 struct MarginalLikelihood {
   MatrixXd errors, fixed, element_scatter;  ///< (n_train × n_train)
   VectorXd r;
@@ -38,7 +37,7 @@ struct MarginalLikelihood {
   }
 };
 
-/// Largest value along one coordinate within the reach, by golden sections.
+/// Maximum along one coordinate within the reach, by golden section.
 double best_along(const MarginalLikelihood& likelihood, VectorXd at, Index k) {
   const double golden = 0.5 * (std::sqrt(5.0) - 1.0);
   double low = -kReach, high = kReach;
@@ -64,7 +63,7 @@ double best_along(const MarginalLikelihood& likelihood, VectorXd at, Index k) {
   return 0.5 * (low + high);
 }
 
-/// Deviation of one logarithm by the curvature there; the reach where the likelihood is flat or highest at its end.
+/// Deviation of one logarithm from the curvature; the reach if the likelihood is flat or largest at the end.
 double deviation_along(const MarginalLikelihood& likelihood, VectorXd at, Index k) {
   constexpr double step = 0.1;
   const double centre = at[k];

@@ -9,9 +9,8 @@ namespace twindeck::diagnosis {
 
 /// Factor between the estimated and the stated standard deviation of one kind of error.
 struct ScatterScale {
-  std::string of;  ///< a row type ("frequency_Hz"), or "workmanship", the tables' word for element scatter: elements, stays and
-                   ///< gains of the model
-  int rows = 0;    ///< of that type; for element scatter all
+  std::string of;  ///< a row type ("frequency_Hz"), or "workmanship" for element scatter (elements, stays, gains)
+  int rows = 0;    ///< number of rows of that type; for element scatter all
   double scale = 1.0, low = 1.0, high = 1.0;  ///< times the stated deviation, 90 % interval
 };
 

@@ -8,7 +8,7 @@ using Eigen::Index;
 
 namespace {
 
-/// [-] of the range of an unknown, in logarithms: a search with bounds ends on them but for rounding.
+/// [-] of the range of an unknown, in logarithms; a bounded search ends on the bound to within this rounding
 constexpr double kOnLowerBound = 1e-3;
 
 }  // namespace

@@ -12,12 +12,12 @@ namespace {
 
 using Eigen::VectorXd;
 
-constexpr double kNatsForAName = 5.0;   ///< 1/2 s² + ln(prior) - 2 > 3: what a name needs, with 2 nats for its unknowns
-constexpr double kVisibleSigma = 1.0;   ///< standard deviations: a shorter signature is less than the noise
-constexpr double kNoSignature = 1e-6;   ///< standard deviations: of an entry that does nothing here
-constexpr int kMagnitudeHalvings = 12;  ///< of a magnitude's range: to 1 part in 4096
+constexpr double kNatsForAName = 5.0;   ///< a name needs 1/2 s² + ln(prior) - 2 > 3, with 2 nats for its unknowns
+constexpr double kVisibleSigma = 1.0;   ///< standard deviations; a shorter signature is below the noise
+constexpr double kNoSignature = 1e-6;   ///< standard deviations; an entry below it has no effect here
+constexpr int kMagnitudeHalvings = 12;  ///< of a magnitude's range, to 1 part in 4096
 
-/// The strongest signature that the screen tries of an entry.
+/// The strongest signature among an entry's trial magnitudes.
 struct Seen {
   const Candidate* candidate;
   VectorXd a, signature;
@@ -39,8 +39,8 @@ std::vector<Seen> strongest_signatures(const Inference& inference, const Fit& ba
   return seen;
 }
 
-/// Smallest magnitude of the first unknown whose signature is as long as `needed`: from nothing (a factor of 1, else the lower
-/// bound) to the tried magnitude, by bisection.
+/// Smallest magnitude of the first unknown whose signature has the length `needed`, by bisection between no effect (a factor of
+/// 1, else the lower bound) and the trial magnitude.
 double smallest_magnitude(const Inference& inference, const Fit& base, const Seen& one, double needed) {
   const Candidate& candidate = *one.candidate;
   const bool factor = candidate.hypothesis->unknowns[0].name == "factor";
@@ -58,7 +58,7 @@ double smallest_magnitude(const Inference& inference, const Fit& base, const See
   return candidate.physical(a, 0);
 }
 
-/// The entry of another family that comes nearest to one, and how far it stays away, in standard deviations.
+/// The nearest entry of another family, and the part of the signature that it cannot imitate, in standard deviations.
 std::pair<std::string, double> best_imitation(const Seen& one, const std::vector<Seen>& seen) {
   const double sigma = one.signature.norm();
   double separation = sigma;

@@ -6,19 +6,17 @@
 
 #include "diagnosis/inference.hpp"
 
-/// What a set of rows would see of each cause, before anything is measured.
+/// Visibility of each cause in a set of rows, before anything is measured.
 namespace twindeck::diagnosis {
 
-/// What the rows see of one entry of the catalogue, at the magnitude whose signature is strongest among those that the screen
-/// tries.
+/// Visibility of one entry of the catalogue, at the trial magnitude with the strongest signature.
 struct Visibility {
   const Candidate* candidate = nullptr;
-  std::optional<double>
-      smallest;             ///< magnitude of the first unknown that would be named, in its unit; nothing where none would
-  double sigma = 0.0;       ///< length of the signature in standard deviations of the rows
-  std::string imitation;    ///< entry of another family that comes nearest; "" where none does
-  double separation = 0.0;  ///< how far that one stays away, in standard deviations
-  std::string status;       ///< "visible", "these data cannot see it", "too small at the tried magnitude"
+  std::optional<double> smallest;  ///< smallest magnitude of the first unknown that would be named, in its unit; empty if none
+  double sigma = 0.0;              ///< length of the signature in standard deviations of the rows
+  std::string imitation;           ///< nearest entry of another family; "" if there is none
+  double separation = 0.0;         ///< part of the signature that the nearest entry cannot imitate, in standard deviations
+  std::string status;              ///< "visible", "these data cannot see it", "too small at the tried magnitude"
 };
 
 /// A name needs 1/2 s^2 + ln(prior) of 5 nats, s being the length of the signature in standard deviations.

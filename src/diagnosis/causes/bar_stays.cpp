@@ -16,16 +16,15 @@ namespace {
 using Eigen::Index;
 using Eigen::MatrixXd;
 
-constexpr int cable_pieces = 6;            ///< the third frequency is then 1.4 % low, the first two within 0.3 %
-constexpr double least_log_odds = 7.0;     ///< [nats] for stays that swing: ln odds of a thousand to one
-constexpr std::size_t least_channels = 3;  ///< a shape of two channels is like half of all others
-constexpr double cable_reach = 2.0;  ///< [-] of the highest measured frequency: a stay that begins above it moves as its ends
-                                     ///< do, but for a third of its inertia
-constexpr double least_harmonic_std = 0.002;  ///< [-] of a stay's own frequency: what the ends' motion changes it by
-constexpr double twin_force_std =
-    0.05;  ///< [-] of a force that was measured on the mirror image: what the site's own sheets differ by
-constexpr double twin_tolerance = 0.01;   ///< [-] of length and modelled force: what meshing leaves between mirror images
-constexpr double model_force_std = 0.10;  ///< [-] of a force that nobody measured, as scatter.stay_pull
+constexpr int cable_pieces = 6;            ///< with six pieces the third frequency is 1.4 % low, the first two are within 0.3 %
+constexpr double least_log_odds = 7.0;     ///< [nats] least ln odds for swinging stays: a thousand to one
+constexpr std::size_t least_channels = 3;  ///< with two channels, a shape resembles half of all others
+constexpr double cable_reach = 2.0;  ///< [-] of the highest measured frequency. A stay with a higher first frequency follows
+                                     ///< its ends, except for a third of its inertia
+constexpr double least_harmonic_std = 0.002;  ///< [-] change of a stay's own frequency by the motion of its ends
+constexpr double twin_force_std = 0.05;       ///< [-] difference of the forces of mirror-image stays, from the site's records
+constexpr double twin_tolerance = 0.01;       ///< [-] of length and modelled force: difference of mirror images by meshing
+constexpr double model_force_std = 0.10;      ///< [-] of a force that was not measured, as scatter.stay_pull
 
 std::vector<MeasuredShape> shapes_of(const FeatureSet& features) {
   std::map<std::pair<int, std::string>, MeasuredShape> found;
@@ -63,7 +62,7 @@ double model_force(const Structure& structure, int element) {
                                                  : structure.model->elements[static_cast<std::size_t>(element)].pull_N;
 }
 
-/// Whether two stays are each other's mirror image: of one section and material, length and force in the model.
+/// Whether two stays are mirror images: equal section, material, length and modelled force.
 bool are_twins(const Structure& structure, int a, int b) {
   const fe::Element& one = structure.model->elements[static_cast<std::size_t>(a)];
   const fe::Element& other = structure.model->elements[static_cast<std::size_t>(b)];
@@ -76,7 +75,7 @@ bool are_twins(const Structure& structure, int a, int b) {
          std::abs(length(one) / length(other) - 1.0) < twin_tolerance && std::abs(forces - 1.0) < twin_tolerance;
 }
 
-/// The force with which a stay shows its measured frequencies; 0 where it has none.
+/// Force at which a stay has its measured frequencies; 0 if none was measured.
 FoundStay measured_force(const Structure& structure, int element, const std::vector<Row>& stay_rows) {
   const fe::Element& stay = structure.model->elements[static_cast<std::size_t>(element)];
   FoundStay out{fe::stay_name(stay), element, 0.0, 0.0, ForceSource::measured};
@@ -98,12 +97,13 @@ FoundStay measured_force(const Structure& structure, int element, const std::vec
     weight += std::pow(h.relative_std, -2);
     rows += 1.0;
   }
-  // The force goes with the square of the frequency. Rows that disagree (with sleeves and without) widen it (Birge 1932).
+  // The force is proportional to the squared frequency. Rows that disagree (with and without sleeves) increase its deviation
+  // (Birge 1932).
   out.relative_std = 2.0 * std::sqrt(std::max(1.0, misfit / std::max(1.0, rows - 1.0)) / weight);
   return out;
 }
 
-/// Every stay under force: by its own frequencies, else as its measured twins, else as the model has it.
+/// Force of every stay under tension: from its own frequencies, else from those of its mirror image, else from the model.
 std::vector<FoundStay> forces(const Structure& structure, const std::vector<Row>& stay_rows) {
   std::vector<FoundStay> out;
   for (std::size_t e = 0; e < structure.model->elements.size(); ++e)
@@ -170,8 +170,8 @@ std::vector<SwingingCable> reduced(const Structure& structure, const Candidates&
   return out;
 }
 
-/// ln of how much better a stay's own frequencies are foretold by its cable than by a bar, which has none. The lowest of them
-/// is what the force was found from and does not count.
+/// ln of the likelihood ratio of a stay's own frequencies, as a cable against a bar without frequencies. The lowest frequency
+/// does not count, because the force was found from it.
 double own_log_odds(const FoundStay& stay, const fe::Cable& cable, const Structure& structure,
                     const std::vector<Row>& stay_rows, const ExplanationRule& rule) {
   const fe::Element& element = structure.model->elements[static_cast<std::size_t>(stay.element)];
@@ -205,7 +205,7 @@ std::optional<BarStays> find_bar_stays(const Structure& structure, const Feature
   const Candidates candidates = stays_that_may_swing(structure, stay_rows, cable_reach * highest);
   if (candidates.stays.empty()) return std::nullopt;
 
-  // 1. What the model with bars leaves.
+  // 1. Modes that the model with bars does not explain.
   dynamics::ModalSolver solver(*structure.system);
   const dynamics::EigenModes modes =
       solver.solve(structure.theta, static_cast<int>(std::min<Index>(options.modes, structure.system->size())));
@@ -219,7 +219,7 @@ std::optional<BarStays> find_bar_stays(const Structure& structure, const Feature
   out.rule.within = frequency_scatter(measured, visible, options.least_mac);
   if (!any_near(candidates, measured, explain(measured, visible, out.rule), out.rule.within)) return std::nullopt;
 
-  // 2. The stays whose swinging explains it.
+  // 2. Stays that explain them by swinging.
   const std::vector<SwingingCable> cables = reduced(structure, candidates, modes.shapes, cable_reach * highest);
   std::vector<int> known;
   for (std::size_t i = 0; i < candidates.stays.size(); ++i)
@@ -234,7 +234,7 @@ std::optional<BarStays> find_bar_stays(const Structure& structure, const Feature
   if (!(out.log_odds >= least_log_odds) || !(out.deck_log_odds > 0.0) || choice.after.count <= choice.before.count)
     return std::nullopt;
 
-  // 3. The model in which they do.
+  // 3. The model with these stays as cables.
   std::vector<fe::SwingingStay> swinging;
   for (const int i : choice.swinging) {
     out.stays.push_back(candidates.stays[static_cast<std::size_t>(i)]);

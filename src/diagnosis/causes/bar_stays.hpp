@@ -12,8 +12,8 @@
 namespace twindeck::diagnosis {
 
 struct BarStaysOptions {
-  double least_mac = 0.6;  ///< a model's mode less alike than that is another one
-  int modes = 48;          ///< of the structure with bars, in whose coordinates the cables are tried
+  double least_mac = 0.6;  ///< a mode of the model with a lower MAC is another mode
+  int modes = 48;          ///< number of modes of the structure with bars, as coordinates for trying the cables
 };
 
 /// Where the force of a cable comes from: the stay's own measured frequencies, those of its mirror image, or the model.
@@ -29,17 +29,17 @@ struct FoundStay {
 
 struct BarStays {
   std::vector<FoundStay> stays;
-  double deck_log_odds = 0.0;  ///< of the modes that the channels saw
-  double log_odds = 0.0;       ///< with the stays' own measured frequencies
+  double deck_log_odds = 0.0;  ///< from the modes that the channels measured
+  double log_odds = 0.0;       ///< with the stays' own measured frequencies too
   ExplanationRule rule;
   fe::Model extended;      ///< the model with these stays as cables of `cable_pieces`
-  int modes_in_basis = 0;  ///< that many modes of it lie where the reduced model of bars had `modes` / 2
-  int modes_in_band = 0;   ///< that many lie below the highest measured frequency
+  int modes_in_basis = 0;  ///< number of its modes in the band of `modes` / 2 modes of the reduced model with bars
+  int modes_in_band = 0;   ///< number of its modes below the highest measured frequency
 };
 
-/// Whether measured modes that the model resembles nowhere are those of stays that swing (rule in docs/diagnosis.md). Modes of
-/// conditions without dampers decide where there are any. Nothing is found where the model has no stay under force, no shape
-/// was measured, every measured mode is explained, or no stay's frequency lies near one that is not.
+/// Finds stays whose swinging explains measured modes that no mode of the model resembles (rule in docs/diagnosis.md).
+/// Conditions without dampers decide if there are any. The result is empty if the model has no stay under tension, if no shape
+/// was measured, if every measured mode is explained, or if no stay has a frequency near an unexplained mode.
 /// @param features   rows in use
 /// @param stay_rows  stay_frequency rows, whether or not they are in use
 [[nodiscard]] std::optional<BarStays> find_bar_stays(const Structure& structure, const FeatureSet& features,

@@ -26,7 +26,7 @@ namespace {
 
 using Eigen::Index;
 
-/// Why these data can't see a family; empty if they can.
+/// Why these data cannot show a family; empty if they can.
 std::string unmet(const Needs& needs, const FeatureSet& features) {
   std::set<int> used;
   std::set<std::string> types;
@@ -59,13 +59,13 @@ std::string unmet(const Needs& needs, const FeatureSet& features) {
 
 bool resolvable(const Candidate& candidate);
 
-/// Range that a stay's first frequency can have. Where it was measured: three deviations about it. Otherwise wide about what
-/// the modelled pull gives. Nothing for a stay of which neither is known.
+/// Range of a stay's first frequency. If it was measured, the range is three deviations to either side; otherwise a wide range
+/// around the value of the modelled pull. Empty if neither is known.
 std::map<std::string, double> own_frequency(const Candidate& candidate, const FeatureSet& features) {
   double weights = 0.0, mean = 0.0;
   for (const Row& row : features.rows) {
     if (row.type != RowType::stay_frequency || "stay:" + row.stay != candidate.location || !(row.std > 0.0)) continue;
-    const double number = std::max(1.0, std::atof(row.mode.c_str()));  // the n-th is n times the first
+    const double number = std::max(1.0, std::atof(row.mode.c_str()));  // the n-th harmonic is n times the first
     const double weight = std::pow(row.value / row.std, 2);
     weights += weight;
     mean += weight * std::log(row.value / number);
@@ -86,7 +86,7 @@ std::set<int> measured_channels(const FeatureSet& features) {
   return measured;
 }
 
-/// Whether load tests are there, and a support of this name holds vertically.
+/// Whether there are load tests, and a support of this name that holds vertically.
 bool can_settle(const ReducedModel& model, const std::string& support) {
   const auto& grounds = model.load_tests.grounds;
   return std::any_of(grounds.begin(), grounds.end(),
@@ -119,14 +119,14 @@ void add_pairs_of_channels(const Hypothesis& h, const FeatureSet& features, std:
     }
 }
 
-/// Each measured mode once, in the order of the rows.
+/// Adds each measured mode once, in the order of the rows.
 void add_modes(const Hypothesis& h, const FeatureSet& features, std::vector<Candidate>& found) {
   std::set<std::string> known;
   for (const Row& row : features.rows)
     if (row.type == RowType::frequency && known.insert(row.mode).second) add(h, "mode:" + row.mode, found).mode = row.mode;
 }
 
-/// Each node with every other where there are up to nine, else with the four nearest of those that come after it.
+/// Adds pairs of nodes: all pairs of up to nine nodes; otherwise each node with the four nearest of the later ones.
 void add_pairs_of_nodes(const Hypothesis& h, const std::vector<ReducedPlace>& nodes, std::vector<Candidate>& found) {
   for (std::size_t i = 0; i < nodes.size(); ++i) {
     std::vector<std::pair<double, std::size_t>> others;
@@ -143,7 +143,7 @@ void add_pairs_of_nodes(const Hypothesis& h, const std::vector<ReducedPlace>& no
   }
 }
 
-/// Places of a move: the dampers in the order of the moved forces, then where they go.
+/// Adds moves of dampers. Locations of a candidate: the dampers in the order of the moved forces, then the new location.
 void add_damper_moves(const Hypothesis& h, const ReducedModel& model, const std::vector<ReducedPlace>& moves,
                       std::vector<Candidate>& found) {
   for (const ReducedPlace& moved : moves) {
@@ -156,7 +156,7 @@ void add_damper_moves(const Hypothesis& h, const ReducedModel& model, const std:
   }
 }
 
-/// Places of a type: all dampers of it.
+/// Adds types of dampers. Locations of a candidate: all dampers of the type.
 void add_damper_types(const Hypothesis& h, const ReducedModel& model, const std::vector<ReducedPlace>& types,
                       std::vector<Candidate>& found) {
   for (const ReducedPlace& type : types) {
@@ -167,7 +167,7 @@ void add_damper_types(const Hypothesis& h, const ReducedModel& model, const std:
   }
 }
 
-/// Whether every factor has something to scale there.
+/// Whether each action of a candidate finds a stiffness, mass or support to act on.
 bool can_act(const Candidate& candidate, const ReducedModel& model) {
   if (candidate.places.empty()) return true;
   const ReducedPlace& place = *candidate.places[0];
@@ -179,7 +179,7 @@ bool can_act(const Candidate& candidate, const ReducedModel& model) {
                       });
 }
 
-/// What a node moves at most in a mode of the model as it stands.
+/// Largest motion of a node in a mode of the unchanged model.
 double motion_of(const ReducedPlace& node, const ReducedModel& model) {
   double most = 0.0;
   std::vector<int> common(static_cast<std::size_t>(model.common));
@@ -189,7 +189,8 @@ double motion_of(const ReducedPlace& node, const ReducedModel& model) {
   return most;
 }
 
-/// A held node carries nothing that vibrates: leaves out those that move less than a part of what the freest one does.
+/// Leaves out held nodes, where a mass or oscillator cannot vibrate: those that move less than a part `held` of the largest
+/// motion.
 void leave_out_held_nodes(const ReducedModel& model, std::vector<Candidate>& found) {
   constexpr double held = 1e-3;
   std::vector<double> motion;
@@ -199,7 +200,7 @@ void leave_out_held_nodes(const ReducedModel& model, std::vector<Candidate>& fou
   std::erase_if(found, [&](const Candidate&) { return motion[at++] < least; });
 }
 
-/// Locations of a set before bounds and priors.
+/// Candidates at all locations of a set, without bounds and priors.
 std::vector<Candidate> locations(const Hypothesis& h, const ReducedModel& model, const FeatureSet& features) {
   std::vector<Candidate> found;
   const auto of_model = model.sets.find(h.set == "pairs(nodes)" ? "nodes" : h.set);
@@ -221,7 +222,7 @@ std::vector<Candidate> locations(const Hypothesis& h, const ReducedModel& model,
   }
   const bool carries = h.does(Primitive::mass_add) || h.does(Primitive::element_oscillator);
   if (h.set == "nodes" && carries) leave_out_held_nodes(model, found);
-  // A spring to the ground stands where the model has none: beside a bearing it is the bearing's stiffness.
+  // A spring to the ground is tried only at nodes without support. At a bearing it would be the bearing's stiffness.
   if (h.set == "nodes" && h.does(Primitive::element_spring))
     std::erase_if(found, [](const Candidate& candidate) { return candidate.places[0]->attributes.contains("supported"); });
   if (h.set == "stays")
@@ -230,7 +231,7 @@ std::vector<Candidate> locations(const Hypothesis& h, const ReducedModel& model,
   return found;
 }
 
-/// A number of the place; nothing where it has none of this name.
+/// Value of an attribute of the location; empty if it has none of this name.
 std::optional<double> attribute_if(const Candidate& candidate, const Expression& e) {
   const std::vector<std::string>& known = place_numbers();
   if (const auto at = candidate.own.find(e.name); at != candidate.own.end()) return at->second;
@@ -246,7 +247,7 @@ std::optional<double> attribute_if(const Candidate& candidate, const Expression&
 
 double attribute(const Candidate& candidate, const Expression& e) { return attribute_if(candidate, e).value_or(0.0); }
 
-/// Whether every bound that refers to the place finds its number there (a stay without pull has no frequency).
+/// Whether the location has a number for every bound that refers to it (a stay without pull has no frequency).
 bool resolvable(const Candidate& candidate) {
   const auto there = [&](const Expression& e) {
     return e.name.empty() || e.name == "f_measured" || attribute_if(candidate, e).has_value();
@@ -256,12 +257,12 @@ bool resolvable(const Candidate& candidate) {
   });
 }
 
-/// A factor between two states of a structure: parts are replaced, cut or propped, so that bounds of a model's uncertainty say
-/// nothing of it.
+/// [-] Range of a factor between two states of a structure. Parts are replaced, cut or propped between states, so the bounds of
+/// the model's uncertainty do not apply.
 constexpr double kLeastChange = 0.005, kMostChange = 20.0;
 constexpr double kChangeStarts[] = {0.02, 0.08, 0.2, 0.45, 0.75, 1.35, 2.2, 5.0, 12.0};
 
-/// Whether a cause is a part that is there, or as strong, in one state of the structure and not in another.
+/// Whether a cause is a part of the structure, which one state may have and another state may not.
 bool is_a_part(const Hypothesis& h) {
   return !h.measurement && std::all_of(h.actions.begin(), h.actions.end(), [](const ActionSpec& action) {
     const ActsOn what = acts_on(action.primitive);
@@ -270,31 +271,32 @@ bool is_a_part(const Hypothesis& h) {
   });
 }
 
-/// States that follow each other in which a hypothesis is asked; none for all together.
+/// Consecutive states in which a hypothesis acts; empty: all states.
 struct AskedStates {
   std::vector<std::string> states;
   std::string when;  ///< as Candidate::when
 };
 
-/// A part may change in one state alone. Of three and more states it may also change from one state on: what was cut stays cut
-/// unless it is repaired. A part that is other in all states is an error of the model.
+/// States in which a hypothesis is tried. A part may change in one state alone. With three and more states, it may also change
+/// from one state on, because damage remains until it is repaired. A part that differs in all states is an error of the model.
 std::vector<AskedStates> states_asked(const Hypothesis& h, const std::vector<std::string>& states) {
   if (states.size() < 2 || !is_a_part(h)) return {{}};
   std::vector<AskedStates> out;
   for (auto state = states.begin() + 1; state != states.end(); ++state) out.push_back({{*state}, "state " + *state});
   for (auto state = states.begin() + 1; state + 1 != states.end(); ++state)
     out.push_back({{state, states.end()}, fmt::format("from state {} on", *state)});
-  // What a later state has more of, the first may have lost: a factor says both, what is added needs to be asked twice.
+  // More in a later state may mean less in the first one. A factor covers both; a cause that only adds is tried for the earlier
+  // states too.
   if (std::ranges::all_of(h.actions, adds, &ActionSpec::primitive)) {
     out.push_back({{states.front()}, "state " + states.front()});
     for (auto state = states.begin() + 2; state < states.end(); ++state)
       out.push_back({{states.begin(), state}, "before state " + *state});
   }
-  if (!h.does(Primitive::support_settle)) out.emplace_back();  // the model does not err by what happened before the first state
+  if (!h.does(Primitive::support_settle)) out.emplace_back();  // events before the first state are no error of the model
   return out;
 }
 
-/// Modes of the condition that has most of them: where something may resonate.
+/// Modes of the condition that has the most of them, for causes that may resonate.
 struct MeasuredModes {
   int condition = -1;
   std::vector<std::pair<std::string, double>> modes;  ///< label, frequency [Hz]
@@ -311,13 +313,13 @@ MeasuredModes measured_modes(const FeatureSet& features) {
   return measured;
 }
 
-/// A magnitude that the screen tries of one unknown, in the unknown's coordinate.
+/// A trial magnitude of one unknown, in the unknown's coordinate.
 struct Start {
   double value;
   Tuning tuning;
 };
 
-/// A number of the candidate's first place, `otherwise` where it has none.
+/// Attribute of the candidate's first location, `otherwise` if there is none.
 double of_material(const Candidate& candidate, const char* name, double otherwise) {
   if (candidate.places.empty()) return otherwise;
   const auto found = candidate.places[0]->attributes.find(name);
@@ -335,7 +337,7 @@ struct Range {
   double low, high;
 };
 
-/// Bounds of an unknown at the candidate's place, in its own unit.
+/// Bounds of an unknown at the candidate's location, in its own unit.
 /// @throws InputError  unless low < high
 Range range_of(const Candidate& candidate, const UnknownSpec& u) {
   double low = resolved(candidate, u.low), high = resolved(candidate, u.high);
@@ -374,7 +376,7 @@ std::vector<Start> starts_of(const Candidate& candidate, const UnknownSpec& u, c
   return starts;
 }
 
-/// Every combination of the unknowns' starts, the last unknown's running fastest.
+/// All combinations of the unknowns' starts; the last unknown varies fastest.
 void combine(const std::vector<std::vector<Start>>& by_unknown, Candidate& candidate) {
   candidate.starts = {Eigen::VectorXd(std::ssize(by_unknown))};
   candidate.tuning = {Tuning{}};

@@ -14,7 +14,7 @@
 
 namespace twindeck::diagnosis {
 
-/// A start that is tuned to a measured mode: `factor` times its frequency, wherever the model has that mode at the time.
+/// A start that is tuned to a measured mode: `factor` times the frequency of that mode in the current model.
 struct Tuning {
   std::string mode;  ///< label, "" for a start that is not tuned
   int condition = -1;
@@ -27,20 +27,20 @@ struct Candidate {
   std::string location;                     ///< "stay:NE5", "channels:a,b", "global"
   std::vector<const ReducedPlace*> places;  ///< one, or two for a pair of nodes; empty for channels and modes
   std::vector<int> channels;                ///< one, or two for a pair
-  std::string mode;                         ///< label of a measured mode
-  std::string state;                        ///< of the structure in which it acts alone or first, "" where it acts in all
-  std::vector<std::string> further_states;  ///< after `state`, in which it acts as well
+  std::string mode;                         ///< label of a measured mode, for causes that act on one
+  std::string state;                        ///< state of the structure in which the cause acts (first), "" for all states
+  std::vector<std::string> further_states;  ///< later states in which the cause acts too
   std::string when;                         ///< "state mid", "from state mid on", "before state mid"; "" where it acts in all
   Eigen::VectorXd low, high;                ///< (k) bounds of the unknowns, in ln where they are logarithmic
   std::vector<bool> log;
-  std::vector<Eigen::VectorXd> starts;  ///< magnitudes that the screen tries, in the same coordinates
-  std::map<std::string, double> own;    ///< numbers that the rows say of the place: f_own, f_own_low, f_own_high of a stay
-  int tuned = -1;                       ///< unknown that is a frequency tuned to measured modes, -1 for none
-  std::vector<Tuning> tuning;           ///< (n_starts) where there is one
+  std::vector<Eigen::VectorXd> starts;  ///< trial magnitudes of the screen, in the same coordinates
+  std::map<std::string, double> own;    ///< measured numbers of the location: f_own, f_own_low, f_own_high of a stay
+  int tuned = -1;                       ///< position of an unknown that is a frequency tuned to measured modes, -1 for none
+  std::vector<Tuning> tuning;           ///< (n_starts) if an unknown is tuned
   double log_prior = 0.0;               ///< ln (weight of the family / sum of weights / number of locations)
 
   [[nodiscard]] std::string id() const { return hypothesis->id + "@" + location; }
-  /// The same, told apart by the states that it acts in.
+  /// Key that also contains the states in which the candidate acts.
   [[nodiscard]] std::string key() const {
     if (state.empty()) return id();
     return further_states.empty() ? id() + " in " + state : id() + " " + when;
@@ -62,7 +62,7 @@ struct Cause {
   Eigen::VectorXd a;  ///< (k) coordinates of the unknowns
 };
 
-/// What a family lacks to be seen at all: empty if nothing.
+/// A family that these data cannot show, with the reason.
 struct Invisible {
   std::string hypothesis, reason;
 };
@@ -72,15 +72,15 @@ struct Instantiated {
   std::vector<Invisible> invisible;
 };
 
-/// Every hypothesis at every location of its set. Where the rows come from several states of the structure, the question is
-/// what changed. A part then differs from the model in all states, in one alone or, of three and more, from one state on. Its
-/// factors go from 0.005 to 20 between states. A fault of a measurement is there in all states. Families whose needs the data
-/// don't meet, or whose set is empty here, go to `invisible` with the reason.
+/// Makes a candidate of every hypothesis at every location of its set. If the rows come from several states of the structure,
+/// changes between states are tried: in one state alone or, with three and more states, from one state on. Factors between
+/// states range from 0.005 to 20. Errors of the model and faults of a measurement act in all states. Families whose needs the
+/// data do not meet, or whose set is empty, go to `invisible` with the reason.
 /// @throws InputError  naming file and line for an unknown attribute, or bounds that are not low < high
 [[nodiscard]] Instantiated instantiate(const std::vector<Hypothesis>& catalogue, const ReducedModel& model,
                                        const FeatureSet& features);
 
-/// A condition's value of a key as a number, if it is known.
+/// Value of a condition's key as a number; empty if unknown.
 [[nodiscard]] std::optional<double> number_of(const Condition& condition, const std::string& key);
 
 }  // namespace twindeck::diagnosis

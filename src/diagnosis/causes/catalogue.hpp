@@ -7,7 +7,7 @@
 
 #include "diagnosis/causes/primitive.hpp"
 
-/// The catalogue of causes as data: what a TOML file of workflows/common/hypotheses says, before it meets a model.
+/// The catalogue of causes as data: content of the TOML files in workflows/common/hypotheses, independent of a model.
 namespace twindeck::diagnosis {
 
 /// `factor · name`: a number, a parameter ("$Fc"), an attribute of the place ("k_drive"), or a number times one
@@ -23,10 +23,10 @@ struct UnknownSpec {
   std::string name, unit;
   Expression low, high;
   bool log = true;                ///< prior uniform in ln, otherwise uniform
-  std::vector<Expression> start;  ///< magnitudes that the screen tries
+  std::vector<Expression> start;  ///< trial magnitudes of the screen
 };
 
-/// One thing that a cause does to the model or to the measurement.
+/// An action of a cause on the model or on the measurement.
 struct ActionSpec {
   Primitive primitive = Primitive::scale_stiffness;
   std::map<std::string, std::string> text;
@@ -37,7 +37,7 @@ struct ActionSpec {
 struct Needs {
   std::map<std::string, std::string> conditions;  ///< dampers = "on"; temperature_C = "known" …
   std::map<std::string, int> distinct;            ///< number of different values of a condition's key
-  std::vector<std::string> rows;                  ///< types of which at least one row must be there
+  std::vector<std::string> rows;                  ///< row types; at least one row of them must exist
 };
 
 struct Hypothesis {
@@ -45,7 +45,7 @@ struct Hypothesis {
   bool measurement = false;  ///< side
   double prior_weight = 1.0;
   std::string set;     ///< location set
-  std::string filter;  ///< of pairs of channels: same_direction
+  std::string filter;  ///< for pairs of channels: same_direction
   std::vector<UnknownSpec> unknowns;
   std::vector<ActionSpec> actions;
   Needs needs;
@@ -58,11 +58,11 @@ struct Hypothesis {
   }
 };
 
-/// Keys of a condition that a cause's needs may name, and what `conditions` may ask of one: "known" for any value, "on" or
-/// "off" for dampers, "above_zero" for a number.
+/// Keys of a condition that a cause's needs may name. `conditions` may ask for: "known" for any value, "on" or "off" for
+/// dampers, "above_zero" for a number.
 [[nodiscard]] const std::vector<std::string>& condition_keys();
 [[nodiscard]] const std::vector<std::string>& condition_demands();
-/// Numbers of a place that a cause may name; whether a name is one of them, or one that only the model knows (x_low, node_0).
+/// Numbers of a location that a cause may name. is_place_number also accepts names that only the model has (x_low, node_0).
 [[nodiscard]] const std::vector<std::string>& place_numbers();
 [[nodiscard]] bool is_place_number(const std::string& name);
 /// elements, nodes, stays, dampers, supports, support_moves, foundations, groups, all_stays, channels, modes, global,

@@ -20,14 +20,13 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 
 constexpr double hit =
-    0.7;  ///< [-] of the structure's own modes so many are explained: the refined bridge model pairs 9 of 11 measured ones
+    0.7;  ///< [-] probability that a mode of the structure is explained; the refined bridge model pairs 9 of 11 measured ones
 constexpr double least_chance =
-    0.02;  ///< [-] of an accident, and of none: no band and no list of modes is known better than that
+    0.02;  ///< [-] least probability of an accident, and of no accident: bands and lists of modes are not known better
 constexpr double least_within = 0.02, most_within = 0.10;  ///< [-] see frequency_scatter
-constexpr double whole_mac =
-    3.0;  ///< [-] what a shape that is wholly unlike costs, in units of `within`; as in the diagnosis' own pairing
-constexpr double farthest = 4.0;  ///< [-] in units of `within`: beyond it a frequency says no more than that it is another mode
-constexpr double explained_first = 10.0;  ///< [-] more than all costs of a pair: what can be explained is
+constexpr double whole_mac = 3.0;         ///< [-] cost of MAC = 0 in units of `within`, as in the pairing of the diagnosis
+constexpr double farthest = 4.0;          ///< [-] in units of `within`; larger distances of frequency cost no more
+constexpr double explained_first = 10.0;  ///< [-] above all costs of a pair, so that most modes are explained
 
 MatrixXd likeness(const std::vector<MeasuredShape>& measured, const VisibleModes& modes) {
   MatrixXd mac(std::ssize(measured), modes.frequency_Hz.size());
@@ -43,7 +42,7 @@ MatrixXd likeness(const std::vector<MeasuredShape>& measured, const VisibleModes
   return mac;
 }
 
-/// Part of the band in which a shape finds a mode that is like it.
+/// Part of the band (in ln f) where the model has a mode like a shape.
 double chance(const Eigen::RowVectorXd& mac, const VisibleModes& modes, const ExplanationRule& rule, double low, double high) {
   double covered = 0.0, end = low;
   for (Index j = 0; j < mac.size(); ++j) {
@@ -98,7 +97,7 @@ ExplainedModes explain(const std::vector<MeasuredShape>& measured, const Visible
     }
   }
   std::map<std::string, std::pair<double, int>> terms;
-  // The band reaches as far beyond the outermost modes as a frequency may be off.
+  // The band extends beyond the outermost modes by the tolerance of a frequency.
   low -= rule.within;
   high += rule.within;
   for (std::size_t i = 0; i < n; ++i) {
@@ -124,7 +123,7 @@ namespace {
 
 using Eigen::VectorXd;
 
-constexpr double twins_within = 0.02;  ///< [-] of ln f: mirror images on a bridge differ by what their forces scatter
+constexpr double twins_within = 0.02;  ///< [-] of ln f: mirror images differ by the scatter of their forces
 
 std::vector<const SwingingCable*> of(const std::vector<SwingingCable>& cables, const std::vector<int>& chosen) {
   std::vector<const SwingingCable*> out;
@@ -132,7 +131,7 @@ std::vector<const SwingingCable*> of(const std::vector<SwingingCable>& cables, c
   return out;
 }
 
-/// Every stay, and every set of stays of one frequency.
+/// Single stays, and all sets of stays with equal frequencies.
 std::vector<std::vector<int>> groups(const std::vector<double>& own_Hz) {
   std::vector<std::vector<int>> out;
   for (std::size_t i = 0; i < own_Hz.size(); ++i) out.push_back({static_cast<int>(i)});

@@ -8,7 +8,7 @@ namespace twindeck::diagnosis {
 
 namespace {
 
-/// Holds out the conditions with the largest of three or more different values of a quantity.
+/// Holds out the conditions with the largest value of a quantity, if it has three or more different values.
 template <typename Value>
 void hold_out_largest(FeatureSet& features, Value value) {
   std::set<double> values;

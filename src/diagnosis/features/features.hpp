@@ -34,7 +34,7 @@ enum class RowType {
   return type != RowType::shape && type != RowType::shape_imag && !is_static(type);
 }
 
-/// Under which circumstances a row was measured; what is not known is empty.
+/// Circumstances of a row's measurement; unknown ones are empty.
 struct Condition {
   std::string name;
   std::string state = "reference";  ///< of the structure as it was then: conditions of one state share the structure
@@ -49,9 +49,9 @@ struct Condition {
 /// A number of the measurement. Frequencies in Hz, damping ratios in per cent, the rest in SI units.
 struct Row {
   RowType type = RowType::frequency;
-  std::string mode;    ///< as in rows.csv; for a stay frequency its harmonic
+  std::string mode;    ///< as in rows.csv; the harmonic of a stay frequency
   int channel = -1;    ///< position in FeatureSet::channels
-  std::string stay;    ///< of a stay frequency
+  std::string stay;    ///< of a stay frequency, else empty
   int condition = -1;  ///< position in FeatureSet::conditions
   double value = 0.0, std = 0.0;
   bool held_out = false;
@@ -64,19 +64,19 @@ struct FeatureSet {
   std::vector<std::string> channels;             ///< names, in the order of channels.csv
   std::vector<Eigen::Vector3d> direction;        ///< (n_channels) direction cosines, zero where unknown
   Eigen::MatrixXd covariance;                    ///< (n_rows × n_rows) instead of std, or empty
-  std::map<std::string, double> clipped, drift;  ///< of quality.csv by channel: fraction of samples, slope in rms; may be empty
+  std::map<std::string, double> clipped, drift;  ///< by channel: share of samples, slope in rms (quality.csv)
 };
 
-/// Training and held-out rows. Where no row is marked, the rule of the method applies: the largest of three or more amplitudes,
-/// the highest of three or more temperatures, the fastest of three or more winds, and the highest mode of each condition with
-/// four or more modes.
+/// Divides the rows into training and held-out ones. If no row is marked, these are held out: the largest of three or more
+/// amplitudes, the highest of three or more temperatures, the fastest of three or more winds, and the highest mode of each
+/// condition with four or more modes.
 void hold_out_by_rule(FeatureSet& features);
 
-/// States of the structure that rows were measured in: first the one that the others are compared with, "reference" or else the
-/// first of the file. One name where the structure was the same throughout.
+/// States of the structure in the rows. The first is the one that the others are compared with: "reference", or else the first
+/// of the file. There is one name if the structure never changed.
 [[nodiscard]] std::vector<std::string> states_of(const FeatureSet& features);
 
-/// The last of them, which is the one to repair.
+/// The last of these states, which is the one to repair.
 [[nodiscard]] std::string last_state(const FeatureSet& features);
 
 /// "frequency_Hz" and so on, as in rows.csv.

@@ -16,15 +16,15 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-constexpr int kLowestModes = 12;     // that a paired mode's shape may take up
-constexpr double kLeastGap = 0.05;   // relative, between frequencies: nearer modes turn no further into each other
-constexpr double kKink = 0.25;       // of a shape's norm, per unit of the form error
-constexpr double kRotation = 0.012;  // radians of a rotation times the relative gap …
-constexpr double kCovered = 0.06, kFarthest = 0.12;  // … for gaps between these
+constexpr int kLowestModes = 12;     // number of lowest modes that a shape may mix with
+constexpr double kLeastGap = 0.05;   // relative, between frequencies; nearer modes do not mix more
+constexpr double kKink = 0.25;       // of a shape's norm at one channel, per unit of the form error
+constexpr double kRotation = 0.012;  // [rad] rotation of two shapes, times the relative gap of their frequencies …
+constexpr double kCovered = 0.06, kFarthest = 0.12;  // … for relative gaps between these
 
-constexpr double kAtRest = 1e-6;  // of the largest motion of the channels in any mode: less is rounding
+constexpr double kAtRest = 1e-6;  // of the largest motion of the channels in any mode; smaller motions are rounding
 
-/// Factor from the mass-normalised shape to what the rows hold; 0 for a mode that moves none of the channels.
+/// Factor between the mass-normalised shape and the rows; 0 for a mode that moves no channel.
 double size_of(const PairedMode& mode, const ModelModes& modes, const VectorXd& predicted) {
   double along = 0.0, norm = 0.0;
   for (std::size_t k = 0; k < mode.shape_rows.size(); ++k) {
@@ -36,9 +36,9 @@ double size_of(const PairedMode& mode, const ModelModes& modes, const VectorXd& 
   return norm > kAtRest * kAtRest * largest ? along / norm : 0.0;
 }
 
-/// What a mode's shape gains if the stiffness couples it to base mode k: its structure's other modes psi_n, each by the part
-/// C_kn of base mode k that it holds and by its distance in frequency. Column k is sum_n C_kn psi_n / (w_q² - w_n²), q the mode
-/// itself (n_channels × n_modes of the base).
+/// Change of a mode's shape if the stiffness couples it to base mode k. It is a sum over the other modes psi_n of its
+/// structure, each with its part C_kn of base mode k over the distance of the squared frequencies. Column k is sum_n C_kn psi_n
+/// / (w_q² - w_n²), q the mode itself (n_channels × n_modes of the base).
 MatrixXd taken_up(const ModelModes& modes, Index own) {
   MatrixXd out = MatrixXd::Zero(modes.shapes.rows(), modes.along.rows());
   for (Index n = 0; n < modes.omega_rad_s.size(); ++n)
@@ -82,7 +82,7 @@ FormColumns form_columns(const std::vector<ModelModes>& structures, const std::v
     const double square = modes.omega_rad_s[mode.own_mode] * modes.omega_rad_s[mode.own_mode];
     const double size = size_of(mode, modes, predicted);
     const MatrixXd turned = mode.shape_rows.empty() ? MatrixXd() : taken_up(modes, mode.own_mode);
-    /// Of a stiffness M (phi_i phi_j' + phi_j phi_i') M, per unit of w_i w_j.
+    /// Column of a stiffness change M (phi_i phi_j' + phi_j phi_i') M, per unit of w_i w_j.
     const auto add = [&](int i, int j, MatrixXd& columns, Index column) {
       const double unit = omega[i] * omega[j];
       if (mode.frequency_row >= 0 && square > 0.0) columns(mode.frequency_row, column) = unit * part[i] * part[j] / square;
@@ -130,7 +130,7 @@ std::optional<Contrast> contrast_of(const std::string& key, const std::vector<st
     if (v) known.insert(*v);
   if (known.size() < 2) return std::nullopt;
   double from = 0.0;
-  if (key == "temperature_C")  // it has no zero of its own: what all conditions share is the form error's
+  if (key == "temperature_C")  // the zero of a temperature is arbitrary
     for (const double v : known) from += v / static_cast<double>(known.size());
   Contrast out{key, VectorXd::Zero(std::ssize(values))};
   for (std::size_t c = 0; c < values.size(); ++c)

@@ -9,7 +9,7 @@ namespace {
 
 using Eigen::VectorXd;
 
-constexpr double kMost = 0.75;  // [-] of the rows of the longer shape
+constexpr double kMost = 0.75;  // [-] least share of the longer shape's rows that must be common
 
 double squares(const std::vector<int>& rows, const VectorXd& values) {
   double sum = 0.0;
@@ -17,8 +17,8 @@ double squares(const std::vector<int>& rows, const VectorXd& values) {
   return sum;
 }
 
-/// Sets the deviation of the rows that are not among the common ones. A shape gains the other at its own size, so that this
-/// size is all that is known of the other where it was not read.
+/// Sets the deviation of rows that only one shape has. The other shape's values are unknown there; its size is taken as equal
+/// to that of the shape that was read.
 void set_alone(const std::vector<int>& rows, const std::vector<int>& common, const VectorXd& values, VectorXd& alone) {
   if (rows.size() == common.size()) return;
   const double size = std::sqrt(squares(rows, values) / static_cast<double>(rows.size()));

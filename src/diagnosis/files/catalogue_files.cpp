@@ -16,7 +16,7 @@ namespace twindeck::diagnosis {
 
 namespace {
 
-/// Reads one file; each reader refuses what it does not know, with its line.
+/// Reads one file. Each function refuses unknown content, with the line.
 class Reader {
  public:
   explicit Reader(const std::filesystem::path& file) : file_(file) {}
@@ -103,7 +103,6 @@ class Reader {
       fail(line, key, "is " + io::shown(value) + ", expected a finite number", "correct the value");
     return e;
   }
-  /// A number that must be above 0.
   double positive(const io::TomlEntry& entry) const {
     const Expression e = expression(entry);
     if (!e.name.empty() || !(e.factor > 0.0))
@@ -177,7 +176,7 @@ class Reader {
     fail(e.line, key, fmt::format("'{}' is no number of a place{}", e.name, did_you_mean(e.name, place_numbers())),
          fmt::format("use a number, or one of {}", fmt::join(place_numbers(), ", ")));
   }
-  /// What of the bounds the file alone shows; their values where a place gives them are checked there.
+  /// Checks the bounds as far as the file shows them. Values that depend on a location are checked there.
   void check_bounds(const UnknownSpec& u) const {
     check_name(u.low, "low");
     check_name(u.high, "high");
@@ -269,7 +268,7 @@ class Reader {
     return asked;
   }
   int count(const io::TomlEntry& entry) const {
-    constexpr long most = 1000;  // different values of a condition: more than anybody measures at
+    constexpr long most = 1000;  // different values of a condition; no measurement has more
     const auto* whole = entry.value.as<long>();
     if (whole == nullptr || *whole < 1 || *whole > most)
       fail(entry.line, "needs.distinct." + entry.key,

@@ -12,14 +12,14 @@ namespace twindeck::diagnosis {
 
 /// All rows of a features folder (docs/my_records.md) with their conditions and channels, quality.csv and covariance.npy where
 /// they are there.
-/// @param choice  which conditions are kept, with their rows; what is put right in them first
+/// @param choice  the conditions to keep, with their rows; corrections are applied first
 /// @throws InputError  with file, line, column: see records/feature_rows.hpp, measured_tables.hpp and corrections.hpp
 [[nodiscard]] FeatureSet read_all_features(const std::filesystem::path& folder, const records::MeasuredChoice& choice = {});
 
 /// @param model  null for a matrix model, which has no stays @param folder  of the features
 /// @throws InputError  naming the line of rows.csv, for a frequency of a stay that the model lacks
 void refuse_unknown_stays(const FeatureSet& features, const fe::Model* model, const std::filesystem::path& folder);
-/// @throws InputError  likewise, for one that the model has without a pull
+/// @throws InputError  naming the line of rows.csv, for a frequency of a stay that has no pull in the model
 void refuse_slack_stays(const FeatureSet& features, const Places& places, const std::filesystem::path& folder);
 
 /// @param folder  of the features

@@ -27,7 +27,7 @@ std::vector<Gauge> gauges_of(const DiagnosedModel& model, const Structure& struc
   for (std::size_t c = 0; c < model.channels.size(); ++c) {
     const matching::Channel& channel = model.channels[c];
     gauges.emplace_back();
-    if (!used.contains(static_cast<int>(c))) continue;  // what no row is of may sit anywhere
+    if (!used.contains(static_cast<int>(c))) continue;  // channels without rows of load tests may be anywhere
     gauges.back() = {channel.is_at_a_point() ? structure.sensor_nodes[c] : "",
                      channel.direction,
                      channel.element,
@@ -39,7 +39,7 @@ std::vector<Gauge> gauges_of(const DiagnosedModel& model, const Structure& struc
   return gauges;
 }
 
-/// Whether nothing at a node, held, sprung or linked, could be moved with the ground.
+/// Whether a node has no support, spring or link that the ground could move.
 bool stands_on_nothing(const fe::Model& model, const std::string& id) {
   const auto is_it = [&](int node) {
     return node >= 0 && std::to_string(model.nodes[static_cast<std::size_t>(node)].id) == id;
@@ -60,7 +60,7 @@ bool has_node(const dynamics::ReadModel& model, const std::string& id) {
   return std::any_of(dofs.begin(), dofs.end(), [&](const auto& dof) { return dof.node == id; });
 }
 
-/// A row that no load could change says that its channel was mistaken.
+/// Refuses a row that no load could change: its channel must be mistaken.
 void refuse_blind_channels(const LoadTests& tests, const FeatureSet& features, const std::filesystem::path& channels_file) {
   for (const Row& row : features.rows) {
     if (!is_static(row.type) || row.type == RowType::static_force) continue;
@@ -77,7 +77,7 @@ void refuse_blind_channels(const LoadTests& tests, const FeatureSet& features, c
   }
 }
 
-/// Names of the supports as step 9 will have them: those of supports.csv, and springs to the ground.
+/// Names of the supports as in step 9: those of supports.csv, and springs to the ground.
 std::vector<std::string> support_names(const fe::Model& model) {
   std::vector<std::string> names;
   const auto add = [&](const std::string& name) {
@@ -132,7 +132,7 @@ void refuse_unplaced_load_tests(const FeatureSet& features, const std::vector<ma
       throw no_such_element({files.channels.string(), channel->line, "element"}, channel->element);
     const std::vector<std::string> known = support_names(*fe);
     const auto is_support = [&](const std::string& name) {
-      return name == channel->support || name + " fixed" == channel->support;  // where springs have the name of a support
+      return name == channel->support || name + " fixed" == channel->support;  // springs may have the name of a support
     };
     if (!channel->support.empty() && std::none_of(known.begin(), known.end(), is_support))
       throw no_such_support({files.channels.string(), channel->line, "support"}, channel->support, known);

@@ -14,14 +14,14 @@ struct LoadTestFiles {
   std::filesystem::path channels;  ///< channels.csv
 };
 
-/// The load cases that rows were measured under and the gauges of the channels, over the structure's free dofs; nothing where
-/// no row is of a load test.
+/// The load cases that rows were measured under and the gauges of the channels, over the structure's free dofs; empty if no row
+/// belongs to a load test.
 /// @throws InputError  naming the line: see diagnosis/reduction/load_test_vectors.hpp and model_io/load_cases.hpp; a row whose
-/// channel shows nothing of the model's motion
+///         channel shows nothing of the model's motion
 [[nodiscard]] LoadTests load_tests_in_use(const DiagnosedModel& model, const Structure& structure, const Places& places,
                                           const FeatureSet& features, const LoadTestFiles& files);
 
-/// What of these the files alone show, before anything is solved: loads and gauges at nodes, supports and elements that the
+/// Checks loads and gauges as far as the files alone show, before anything is solved: nodes, supports and elements that the
 /// model does not have. @throws InputError  as above
 void refuse_unplaced_load_tests(const FeatureSet& features, const std::vector<matching::Channel>& channels,
                                 const dynamics::ReadModel& model, const LoadTestFiles& files);

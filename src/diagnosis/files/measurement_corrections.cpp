@@ -64,7 +64,7 @@ void write_corrections(const std::vector<records::Correction>& before, const std
   std::vector<records::Correction> all = before;
   for (const records::Correction& correction : found) {
     if (const auto undone = undone_by(all, correction))
-      all.erase(all.begin() + static_cast<std::ptrdiff_t>(*undone));  // what was put right before was right
+      all.erase(all.begin() + static_cast<std::ptrdiff_t>(*undone));  // the new correction cancels an earlier one
     else
       all.push_back(correction);
   }

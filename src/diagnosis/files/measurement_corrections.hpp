@@ -7,18 +7,18 @@
 #include "diagnosis/diagnose.hpp"
 #include "records/corrections.hpp"
 
-/// What the diagnosis found wrong with single channels, as corrections that the steps can make (`--correct FILE`).
+/// Faults of single channels, as corrections that the steps can make (`--correct FILE`).
 namespace twindeck::diagnosis {
 
 /// Corrections of the effects that are faults of channels alone: a sign, an exchange, a gain. An effect that these rows do not
-/// tell from another entry is none: nobody should turn a channel that may be right. Signs and factors come first, by the names
-/// as recorded; then exchanges, the last found first, which is the order that undoes what the model of the channels does.
+/// distinguish from another entry gives no correction, because the channel may be right. Signs and factors come first, with the
+/// recorded names. Exchanges follow in reverse order of the effects, which undoes the exchanges of the model.
 /// @param channels  names of the channels, in the order of the features
 [[nodiscard]] std::vector<records::Correction> corrections_of(const Diagnosis& result,
                                                               const std::vector<std::string>& channels);
 
-/// Writes corrections.toml where something was found: what was corrected before this run, then what it found, so that the file
-/// alone brings the recorded features to what the run recommends. No file where nothing was found.
+/// Writes corrections.toml: the corrections made before this run, then those that it found. The file alone corrects the
+/// recorded features as the run recommends. Nothing is written if nothing was found.
 void write_corrections(const std::vector<records::Correction>& before, const std::vector<records::Correction>& found,
                        const std::filesystem::path& file);
 

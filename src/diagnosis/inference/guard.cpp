@@ -16,11 +16,11 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-/// What an explanation says of one block from all other rows.
+/// Prediction of one block by an explanation, from all other rows.
 struct Fold {
-  double log_evidence = 0.0;  ///< of the other rows, prior included
-  double log_density = 0.0;   ///< predictive, of the block
-  double square = 0.0;        ///< of the block's standardised residual, mean over magnitudes
+  double log_evidence = 0.0;  ///< ln evidence of the other rows, prior included
+  double log_density = 0.0;   ///< ln predictive density of the block
+  double square = 0.0;        ///< squared standardised residual of the block, mean over magnitudes
 };
 
 Fold fold_of(const Explanation& e, const MatrixXd& u, const VectorXd& chi_squared, const std::vector<int>& block) {

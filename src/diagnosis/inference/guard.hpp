@@ -12,7 +12,7 @@ struct Precision {
   Eigen::MatrixXd matrix;
   double log_determinant = 0.0;
 };
-/// A hypothesis with its scales fixed: the residual less each of its signatures is N(0, Sigma).
+/// A hypothesis with fixed scales: the residual minus one of its signatures is N(0, Sigma).
 struct Explanation {
   std::shared_ptr<const Precision> precision;
   Eigen::MatrixXd left;        ///< (n_rows × n_magnitudes) r - s; one column without a cause
@@ -21,10 +21,10 @@ struct Explanation {
 
 /// Prediction of the rows that a fold leaves out.
 struct BlockGain {
-  double log_gain = 0.0;             ///< ln odds against nothing from all rows less those from all other rows
+  double log_gain = 0.0;             ///< ln odds against "nothing" from all rows, minus those from all other rows
   double before = 0.0, after = 0.0;  ///< sums of squared standardised residuals
   int rows = 0;
-  int chosen = -1;  ///< position of the entry that leads by the other rows; -1: nothing leads
+  int chosen = -1;  ///< position of the entry that leads by the other rows; -1: "nothing" leads
 };
 
 struct PredictiveGain {
@@ -33,13 +33,13 @@ struct PredictiveGain {
   double reduction_pct = 0.0, low_pct = 0.0, high_pct = 0.0;  ///< of the RMS of standardised residuals
 };
 
-/// Leave-one-block-out gain of the odds against nothing: of each block, ln odds from all rows less ln odds from all rows but
-/// the block's. The odds are of nothing and all entries together to nothing. `after` weighs entries by the other rows. With
-/// Q = Sigma^-1 and block b: e_b = (Q_bb)^-1 (Q r)_b has covariance (Q_bb)^-1; magnitudes are weighted by the other rows,
-/// chi² - u_b' (Q_bb)^-1 u_b with u = Q (r - s). With fewer than three blocks the intervals reach to zero, because so few
-/// blocks cannot decide.
+/// Leave-one-block-out gain of the odds against "nothing". For each block it is the ln odds from all rows minus the ln odds
+/// without the rows of the block. The odds are those of all hypotheses, "nothing" included, against "nothing". `after` weighs
+/// the entries by the other rows. With Q = Sigma^-1 and block b: e_b = (Q_bb)^-1 (Q r)_b has covariance (Q_bb)^-1; magnitudes
+/// are weighted by the other rows, chi² - u_b' (Q_bb)^-1 u_b with u = Q (r - s). With fewer than three blocks the intervals
+/// reach to zero, because so few blocks cannot decide.
 /// @param blocks   rows of each; rows outside all blocks are always used
-/// @param entries  their log_weight holds all that does not depend on rows
+/// @param entries  their log_weight includes everything that does not depend on rows
 [[nodiscard]] PredictiveGain gain_of_odds(const std::vector<std::vector<int>>& blocks, const Explanation& none,
                                           const std::vector<Explanation>& entries, int bootstrap, std::uint64_t seed);
 

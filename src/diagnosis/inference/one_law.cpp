@@ -15,10 +15,10 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-constexpr double kRidge = 0.3;        // of H in a step: a class that the data do not show moves slowly
+constexpr double kRidge = 0.3;        // part of H added to a step: a class that the data do not determine moves slowly
 constexpr double kLongestStep = 1.5;  // of ln tau
 constexpr int kIterations = 25, kHalvings = 5;
-constexpr double kSettled = 0.02;  // nats that a further step promises: less decides nothing
+constexpr double kSettled = 0.02;  // [nats] expected gain of a further step below which the search ends
 
 double log_of_sum(const VectorXd& v, VectorXd& weight) {
   const double top = v.maxCoeff();
@@ -38,7 +38,7 @@ double log_half_t(double log_tau, double scale) {
 double log_width(const MatrixXd& precision, const VectorXd& range) {
   if (range.size() == 0) return 0.0;
   MatrixXd h = precision;
-  h.diagonal().array() += 2.0 * std::numbers::pi / range.array().square();  // no wider than the prior
+  h.diagonal().array() += 2.0 * std::numbers::pi / range.array().square();  // the posterior is no wider than the prior
   const VectorXd d = h.ldlt().vectorD();
   const double log_det = d.array().max(1e-300).log().sum();
   return std::min(
@@ -46,7 +46,7 @@ double log_width(const MatrixXd& precision, const VectorXd& range) {
       0.0);
 }
 
-/// A hypothesis at scales of its active classes.
+/// A hypothesis evaluated at given scales of its active classes.
 struct OneLaw::Look {
   VectorXd log_tau, tau;  // (n_active), (n_classes)
   Point point;
@@ -66,7 +66,7 @@ OneLaw::OneLaw(const LawSystem& system) : whitener_(linalg::cholesky_factor(syst
   for (Index r = 0; r < whitener_.rows(); ++r)
     if (std::any_of(white.begin(), white.end(), [&](const MatrixXd& columns) { return !columns.row(r).isZero(0.0); }))
       rows_.push_back(static_cast<int>(r));
-  if (rows_.empty()) rows_.push_back(0);  // without classes any row will do
+  if (rows_.empty()) rows_.push_back(0);  // any row will do if there are no classes
   for (const MatrixXd& columns : white) {
     columns_.emplace_back(columns(rows_, Eigen::all));
     products_.push_back(linalg::square(columns_.back()));
@@ -129,7 +129,7 @@ void OneLaw::slope_of(const LawHypothesis& white, Look& look) const {
   const MatrixXd inverse = linalg::inverse_of_factored(look.point.lower);
   const MatrixXd alpha = linalg::lower_solve(look.point.lower, look.solved(rows_, Eigen::all), true);
   look.gradient.resize(count);
-  std::vector<MatrixXd> along;  // L^-1 D_c D_c' alpha, each column times the root of its weight
+  std::vector<MatrixXd> along;  // L^-1 D_c D_c' alpha, each column times the square root of its weight
   for (Index k = 0; k < count; ++k) {
     const ActiveClass& active = white.active[static_cast<std::size_t>(k)];
     const MatrixXd& square = products_[static_cast<std::size_t>(active.index)];

@@ -8,14 +8,14 @@ namespace twindeck::diagnosis {
 
 /// The law of a residual. Under a hypothesis h
 ///   r - s_h(a) ~ N(0, Sigma(tau)),   Sigma(tau) = Sigma_0 + sum_c tau_c² D_c D_c'.
-/// Sigma_0 holds what is known beforehand. Each class c of errors has columns D_c of unit scale and a scale tau_c that the data
-/// tell: tau_c ~ half-t of three degrees of freedom. A hypothesis says which classes are active.
+/// Sigma_0 is the known covariance. Each class c of errors has columns D_c of unit scale and an unknown scale tau_c, with a
+/// half-t prior of three degrees of freedom. A hypothesis states which classes are active.
 struct LawSystem {
   Eigen::MatrixXd sigma;                 ///< Sigma_0 (n_rows × n_rows)
   std::vector<Eigen::MatrixXd> classes;  ///< D_c (n_rows × n_c each)
   Eigen::VectorXd residual;              ///< r (n_rows)
   Eigen::MatrixXd signatures;            ///< of causes, one column each (n_rows × n_signatures)
-  double log_prior = 0.0;                ///< of what else the system takes for true
+  double log_prior = 0.0;                ///< ln prior of the modes that the system holds for none of the model's
 };
 
 /// A class that is active under a hypothesis, and the scale of its half-t law.
@@ -30,12 +30,12 @@ struct LawHypothesis {
   Eigen::VectorXd log_weight;       ///< ln prior of each magnitude (n_magnitudes)
   Eigen::MatrixXd slopes;           ///< of linear magnitudes (n_rows × k), or no column
   Eigen::VectorXd low, high;        ///< (k) bounds of their shifts from the point; the prior between is uniform
-  std::vector<ActiveClass> active;  ///< classes with a scale; the others are absent
+  std::vector<ActiveClass> active;  ///< classes with a scale; the other classes are absent
 };
 
 /// Laplace's approximation of a hypothesis' evidence about the mode of its scales in ln tau.
 struct LawEvidence {
-  double log_evidence = -1e300;  ///< -n/2 ln 2 pi left out
+  double log_evidence = -1e300;  ///< without the constant -n/2 ln 2 pi
   double chi_squared = 0.0;      ///< e' Sigma^-1 e at the mode, at the best magnitude
   Eigen::VectorXd tau;           ///< (n_classes) at the mode; 0 where absent
   Eigen::VectorXd deviation;     ///< (n_classes) of ln tau
@@ -66,36 +66,36 @@ class OneLaw {
   [[nodiscard]] Eigen::Index classes() const { return static_cast<Eigen::Index>(columns_.size()); }
   [[nodiscard]] Eigen::MatrixXd whitened(const Eigen::MatrixXd& rows) const;
 
-  /// Sigma at some scales, in the whitened rows that a class has a share in; in the others it is the identity.
+  /// Sigma at given scales, over the whitened rows that some class changes; in the other rows it is the identity.
   struct Point {
     Eigen::VectorXd tau;
     Eigen::MatrixXd lower;  ///< L, L L' = L_0^-1 Sigma L_0^-T
     double log_determinant = 0.0;
   };
   [[nodiscard]] Point at(const Eigen::VectorXd& tau) const;
-  /// Whitened rows, whitened by a point's Sigma.
+  /// Whitens rows, already whitened by Sigma_0, by a point's Sigma.
   [[nodiscard]] Eigen::MatrixXd solved(const Point& point, Eigen::MatrixXd white) const;
 
-  /// The mode of the scales from a start (n_classes; where an active class starts at 0 it starts at its half-t scale), and the
-  /// evidence there.
+  /// Finds the mode of the scales and the evidence there. @param start  (n_classes) scales; an active class with 0 starts at
+  /// its half-t scale
   [[nodiscard]] LawEvidence scored(const LawHypothesis& hypothesis, const Eigen::VectorXd& start) const;
-  /// ln (likelihood × prior of ln tau) at scales, magnitudes summed over.
+  /// ln (likelihood × prior of ln tau) at given scales, summed over the magnitudes.
   [[nodiscard]] double log_posterior(const LawHypothesis& hypothesis, const Eigen::VectorXd& tau) const;
 
  private:
   struct Look;
   [[nodiscard]] Look look(const LawHypothesis& white, const Eigen::VectorXd& log_tau) const;
-  /// Gradient, and a curvature for steps: the average information, half of what the data say and half of what is expected.
-  /// It costs products with vectors; Fisher's, which Laplace's approximation needs, products of matrices.
+  /// Gradient, and a curvature for steps: the average information, the mean of observed and expected information. It needs only
+  /// products with vectors. The expected (Fisher) information of Laplace's approximation needs products of matrices.
   void slope_of(const LawHypothesis& white, Look& look) const;
   [[nodiscard]] Eigen::MatrixXd expected_curvature(const LawHypothesis& white, const Look& look) const;
-  /// Curvature in ln tau from what the rows tell of each pair of classes.
+  /// Curvature in ln tau: information of the rows on each pair of classes, plus the prior's curvature.
   static Eigen::MatrixXd with_prior(const LawHypothesis& white, const Look& look,
                                     const std::function<double(std::size_t, std::size_t)>& information);
 
   Eigen::MatrixXd whitener_;  // L_0
   double log_determinant_ = 0.0, log_prior_ = 0.0;
-  std::vector<int> rows_;                            // whitened ones that a class has a share in
+  std::vector<int> rows_;                            // whitened rows that some class changes
   std::vector<Eigen::MatrixXd> columns_, products_;  // L_0^-1 D_c in these rows, and times its transpose
 };
 

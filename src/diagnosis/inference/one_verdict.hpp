@@ -15,20 +15,20 @@ struct PossibleAnswer {
   bool something_else = false;
 };
 
-/// [-] Probability of the set of answers, and of the answer that there is a cause.
+/// [-] Probability of the set of answers. It is also the probability of a cause above which there is an answer.
 constexpr double kSetProbability = 0.95;
 
 struct Judgement {
   Verdict verdict = Verdict::none;
-  double log_odds = -1e300;         ///< ln of all answers' weight over that of nothing
+  double log_odds = -1e300;         ///< ln of the weight of all answers over that of "nothing"
   double nothing = 1.0;             ///< probability of nothing
   std::vector<double> probability;  ///< of each answer
-  std::vector<int> set;             ///< the smallest set of answers with 95 % of what is not nothing, the most probable first
+  std::vector<int> set;  ///< smallest set with 95 % of the probability of all answers, the most probable answer first
   bool something_else_in_set = false;
 };
 
-/// The verdict's table. `none` if nothing keeps a probability of 5 %. Otherwise the set decides: led by "something else" it is
-/// `unknown`, one entry is `named`, and several are `ambiguous`.
+/// The verdict is `none` if "nothing" keeps a probability of 5 % or more. Otherwise the set decides: if "something else" leads,
+/// the verdict is `unknown`; if the set has one entry, `named`; if it has several, `ambiguous`.
 [[nodiscard]] Judgement judge(double log_weight_of_nothing, const std::vector<PossibleAnswer>& answers);
 
 }  // namespace twindeck::diagnosis

@@ -16,20 +16,20 @@ namespace {
 
 using Eigen::Index;
 constexpr double kFree = std::numeric_limits<double>::infinity();
-/// Prior deviations beyond which no element scatter and no gain goes: a gain 140 of them off is a reversed sensor and must stay
-/// a misfit, or the fit hides it.
+/// [prior deviations] Bound of element scatter and gains. A reversed sensor is a gain 140 deviations off; it must remain a
+/// misfit and not be fitted.
 constexpr double kWorst = 6.0;
 
-/// Of the largest value of a type in a condition, alike wherever a channel is read under the same load. Models after fitting
-/// are 0.4 to 1.8 % off in frequency, that is up to some 3 % in flexibility.
+/// [-] Error of a load-test row by the form of the model, over the largest value of its type and condition; fully correlated
+/// for a channel under one load. Fitted models are 0.4 to 1.8 % off in frequency, up to about 3 % in flexibility.
 constexpr double kStaticForm = 0.03;
 
-constexpr double kCloseModes = 0.06;  ///< [-] relative gap of frequencies from which shapes are taken as known each for itself
-/// [rad] angle by which errors turn two shapes into each other, times the relative gap of their frequencies: errors of a mode's
-/// part of stiffness and mass of 1.5 %.
+constexpr double kCloseModes = 0.06;  ///< [-] relative gap of frequencies above which the errors of two shapes are independent
+/// [rad] Rotation of two shapes by errors, times the relative gap of their frequencies: from errors of 1.5 % in a mode's part
+/// of stiffness and mass.
 constexpr double kTurnTimesGap = 0.015;
-/// [rad] however close two modes are. From 45 degrees on each shape is more like the other mode's and has its name; of angles
-/// that are alike probable up to there the standard deviation is pi / (4 sqrt 3).
+/// [rad] Largest rotation, however close two modes are. Above 45 degrees each shape resembles the other mode more and has its
+/// name. A uniform law up to 45 degrees has the standard deviation pi / (4 sqrt 3).
 constexpr double kLargestTurn = 0.25 * std::numbers::pi * std::numbers::inv_sqrt3;
 
 }  // namespace
@@ -70,7 +70,8 @@ void FeatureMap::collect_modes() {
       mode.imag_channels.push_back(row.channel);
     }
   }
-  // A model that is several times too stiff has fewer modes below that than were measured: then as many of its own as were.
+  // A far too stiff model has fewer modes below this frequency than were measured. Then as many of its modes as were measured
+  // are used.
   std::map<int, Index> measured;
   Index most = 0;
   for (const MeasuredMode& mode : modes_) most = std::max(most, ++measured[mode.condition]);
@@ -118,7 +119,7 @@ void FeatureMap::transform(const ScatterOptions& scatter) {
     for (const auto* rows : {&mode.real_rows, &mode.imag_rows})
       for (const int r : *rows) covariance_(r, r) = std::max(covariance_(r, r), floor);
   }
-  // Close modes: small changes turn their shapes into each other, so that only their plane is known well.
+  // Close modes: small changes rotate their shapes into each other, so that only their plane is known well.
   for (const MeasuredMode& a : modes_) {
     for (const MeasuredMode& b : modes_) {
       if (a.condition != b.condition || !(a.frequency_Hz < b.frequency_Hz)) continue;
@@ -164,7 +165,7 @@ void FeatureMap::list_places(const ScatterOptions& scatter) {
                               scatter.fine * deviation, -kWorst, kWorst, set, mass});
   };
   const auto any = [](const ReducedPlace&) { return true; };
-  const auto is_flexible = [](const ReducedPlace& p) {  // what stands for a rigid support has no size of its own
+  const auto is_flexible = [](const ReducedPlace& p) {  // a spring that replaces a rigid support has no meaningful size
     const auto high = p.attributes.find("f_high");
     return high == p.attributes.end() || high->second > 1.0;
   };
@@ -209,7 +210,7 @@ void FeatureMap::list_nuisances(const ScatterOptions& scatter) {
   for (const auto& [channel, used] : channels)
     add(Nuisance::Kind::gain, channel, "channel:" + features_.channels[static_cast<std::size_t>(channel)] + " gain", 0.0,
         scatter.fine * scatter.gain);
-  for (std::size_t i = 0; i < damping_modes_.size(); ++i)  // computed by no model: ln zeta about 0.5 %, a factor e wide
+  for (std::size_t i = 0; i < damping_modes_.size(); ++i)  // prior of ln zeta around 0.5 %, a factor e wide
     add(Nuisance::Kind::mode_damping, static_cast<int>(i), "mode " + damping_modes_[i] + " structural damping", std::log(0.5),
         1.0, -kFree, kFree);
   for (const auto& [level, used] : levels) {
@@ -270,25 +271,24 @@ FeatureMap::Base FeatureMap::base(const Eigen::VectorXd& x) const {
     (v.of_mass ? base.mass_parts : base.stiffness_parts).emplace_back(amount, &scattered(v));
   }
   const Index c = model_.common;
-  const auto sum =
-      [c](const std::vector<Base::Part>& parts) {  // symmetric: reading half of so many matrices takes half the time
-        Eigen::MatrixXd total = Eigen::MatrixXd::Zero(c, c);
-        for (const auto& [amount, matrix] : parts)
-          for (Index j = 0; j < c; ++j) total.col(j).head(j + 1) += amount * matrix->common().col(j).head(j + 1);
-        total.triangularView<Eigen::StrictlyLower>() = total.transpose();
-        return total;
-      };
+  const auto sum = [c](const std::vector<Base::Part>& parts) {  // symmetric: reading half of the entries takes half the time
+    Eigen::MatrixXd total = Eigen::MatrixXd::Zero(c, c);
+    for (const auto& [amount, matrix] : parts)
+      for (Index j = 0; j < c; ++j) total.col(j).head(j + 1) += amount * matrix->common().col(j).head(j + 1);
+    total.triangularView<Eigen::StrictlyLower>() = total.transpose();
+    return total;
+  };
   base.common_stiffness = sum(base.stiffness_parts);
   base.common_mass = sum(base.mass_parts);
   return base;
 }
 
-/// Columns behind the common ones of a sum of the reduced model's matrices (n × n_own).
+/// Columns after the common ones of a sum of the reduced model's matrices (n × n_own).
 Eigen::MatrixXd own_columns(const std::vector<FeatureMap::Base::Part>& parts, const std::vector<int>& columns) {
   const ReducedBasis& basis = parts.front().second->basis();
   const Index n = std::ssize(columns), c = basis.common();
   Eigen::MatrixXd total = Eigen::MatrixXd::Zero(n, n - c);
-  Eigen::MatrixXd own, force;  // of all parts of few degrees of freedom together: they are projected once
+  Eigen::MatrixXd own, force;  // of all local matrices together, which are projected once
   for (const auto& [amount, matrix] : parts) {
     if (!matrix->is_local()) {
       matrix->add_own(amount, columns, total);

@@ -22,14 +22,14 @@ struct ScatterOptions {
   double frequency_floor = 0.001, damping_floor = 0.05, shape_floor = 0.01;  ///< relative; of the shape's largest value
   double load_model = 0.10;  ///< of RMS values, on ln: uncertainty of a simple load model
   double model_form =
-      0.0;  ///< of a frequency, on ln, the same in all conditions of a mode: for a model that is known to be inaccurate
+      0.0;  ///< of a frequency, on ln, the same in all conditions of a mode; for a model that is known to be inaccurate
   bool damping_by_dampers =
-      false;           ///< a separate structural damping where dampers are on, because stuck dampers dissipate by friction
+      false;  ///< separate structural damping of the conditions with dampers, because stuck dampers dissipate by friction
   double fine = 1.0;   ///< common factor of the first line (estimated by marginal likelihood)
   double noise = 1.0;  ///< common factor of identification errors (likewise)
 };
 
-/// A nuisance unknown in units of its prior: mean 0, deviation 1.
+/// A nuisance parameter in units of its prior: mean 0, deviation 1.
 struct Nuisance {
   enum class Kind { parameter, place, stay_pull, gain, mode_damping, level };
   Kind kind = Kind::parameter;
@@ -37,8 +37,8 @@ struct Nuisance {
   std::string name;  ///< "E_s", "element:17 stiffness", "mode 3 damping", for tables
   double mean = 0.0, deviation = 1.0;
   double lower, upper;   ///< hard bounds in prior units (parameters), ± infinity otherwise
-  std::string set = {};  ///< of a place: "zones", "nodes", "stays", "supports" or "foundations" …
-  bool of_mass = false;  ///< … whose mass, else stiffness, is off by a factor of its own
+  std::string set = {};  ///< of a location: "zones", "nodes", "stays", "supports" or "foundations" …
+  bool of_mass = false;  ///< … true: factor on its mass, false: on its stiffness
 };
 
 /// A measured mode of one condition.
@@ -51,7 +51,7 @@ struct MeasuredMode {
   double frequency_Hz = 0.0;
 };
 
-/// Prediction for the rows.
+/// Predicted values of the rows.
 struct Prediction {
   bool valid = false;
   Eigen::VectorXd g;                 ///< (n_rows) transformed as `FeatureMap::values`
@@ -60,41 +60,40 @@ struct Prediction {
   std::vector<double> frequency_Hz;  ///< (n_measured_modes) of the paired model modes
   std::vector<int> paired;           ///< (n_measured_modes) position of the paired model mode in its state, -1
   std::vector<double> mac;           ///< (n_measured_modes) with the paired mode, NaN without shape
-  std::vector<int> open;             ///< rows of measured modes that are none of the model's: g holds the measured values there
+  std::vector<int> open;             ///< rows of measured modes without a mode of the model; g has the measured values there
 };
-/// g of one prediction less that of another (n_rows), 0 in rows that either leaves open: what one of them does not explain says
-/// nothing of the other.
+/// Difference of two predictions g (n_rows), 0 in rows that either leaves open, because their values are not predicted.
 [[nodiscard]] Eigen::VectorXd change_between(const Prediction& from, const Prediction& to);
 
-/// Undamped modes of the model as the channels see them in each structure that was measured (the first condition's first), and
-/// which of them each measured mode is paired with.
+/// Undamped modes of the model at the channels, in each measured structure (the first condition's first), and the pairs of
+/// measured modes with them.
 struct FormModes {
   std::vector<ModelModes> structures;
   std::vector<PairedMode> paired;  ///< (n_measured_modes), empty if the model predicts none of these rows
 };
 
-/// g(x, a): rows of the measurement as functions of the nuisance unknowns x and of causes. Frequencies, damping, RMS, floors
-/// and stay frequencies in ln; shapes scaled to the measured ones, the scale being free; rows of load tests in their own unit.
+/// g(x, a): rows of the measurement as functions of the nuisance parameters x and of causes. Frequencies, damping, RMS, floors
+/// and stay frequencies are in ln. Shapes are scaled to the measured ones. Rows of load tests have their own unit.
 class FeatureMap {
  public:
   FeatureMap(const ReducedModel& model, const FeatureSet& features, const ScatterOptions& scatter);
 
-  /// Modes that measured labels are bound to where there is no shape: label -> position in the model as it stands (0-based).
+  /// Binds measured labels to modes of the unchanged model, used if there is no shape: label -> position (0-based).
   void bind_modes(const std::map<std::string, int>& positions) { bound_modes_ = positions; }
 
-  /// Projected structure at x: the data that all predictions at one x share, with the states solved so far. Each thread needs
-  /// its own base.
+  /// Reduced structure at x: data that all predictions at one x share, with the states solved so far. Each thread needs its own
+  /// base.
   struct Base {
     Eigen::VectorXd x, theta;
     using Part = std::pair<double, const ReducedMatrix*>;  ///< amount, matrix (r × r) of the reduced model
     std::vector<Part> stiffness_parts, mass_parts;
-    Eigen::MatrixXd common_stiffness, common_mass;  ///< over the common columns, which every state has
+    Eigen::MatrixXd common_stiffness, common_mass;  ///< over the common columns, which all states use
     std::shared_ptr<struct StateStore> store;
-    bool keeps = false;  ///< states with causes are kept too: for the same causes predicted again
+    bool keeps = false;  ///< states with causes are kept too, because the same causes are predicted again
   };
   [[nodiscard]] Base base(const Eigen::VectorXd& x) const;
 
-  /// Of an unknown of a place: the place, and its matrix that the unknown scales.
+  /// Location of a nuisance parameter, and the matrix that it scales.
   [[nodiscard]] const ReducedPlace& place_of(const Nuisance& v) const;
   [[nodiscard]] const ReducedMatrix& scattered(const Nuisance& v) const;
   /// Stiffness and mass at a base in some of the reduced model's coordinates, the common ones first (n × n each). Most of the
@@ -102,8 +101,8 @@ class FeatureMap {
   [[nodiscard]] std::pair<Eigen::MatrixXd, Eigen::MatrixXd> matrices(const Base& base, const std::vector<int>& columns) const;
   [[nodiscard]] Prediction predict(const Base& base, const std::vector<Cause>& causes, bool with_jacobian) const;
 
-  /// Motion of the nodes where a sensor could be, in each measured mode: "node:17 z" -> (n_measured_modes), the largest of a
-  /// mode scaled to 1.
+  /// Motion of the nodes where a sensor could be, in each measured mode: "node:17 z" -> (n_measured_modes), each mode scaled to
+  /// a largest motion of 1.
   [[nodiscard]] std::map<std::string, Eigen::VectorXd> node_motion(const Base& base, const std::vector<Cause>& causes) const;
 
   /// Data for the errors of the model's form (model_modes.cpp).
@@ -120,22 +119,22 @@ class FeatureMap {
   [[nodiscard]] int scales() const { return n_scales_; }
   /// Replaces the measured values by others (bootstrap, tests), in transformed units.
   void set_values(const Eigen::VectorXd& values);
-  /// Errors that are added to those of the identification, in transformed units (n_rows × n_rows).
+  /// Adds a covariance to that of the identification errors, in transformed units (n_rows × n_rows).
   void add_covariance(const Eigen::MatrixXd& further);
 
  private:
   friend class Predictor;
-  /// Key of a mode's structural damping: its label, the state of the structure, and that of the dampers if it counts.
+  /// Key of a mode's structural damping: its label, the state of the structure, and, if it matters, the state of the dampers.
   [[nodiscard]] std::string damping_name(const std::string& label, int condition) const;
   void collect_modes();
   void list_places(const ScatterOptions& scatter);
   void list_nuisances(const ScatterOptions& scatter);
   void transform(const ScatterOptions& scatter);
-  void add_static_form();  ///< what every model leaves open of a load test
+  void add_static_form();  ///< adds the error of load-test rows by the form of the model
 
   const ReducedModel& model_;
   FeatureSet features_;
-  std::vector<std::string> states_;  ///< of the structure, the first the one that others are compared with
+  std::vector<std::string> states_;  ///< of the structure; the others are compared with the first
   std::vector<MeasuredMode> modes_;
   std::vector<Nuisance> nuisances_;
   std::vector<std::string> damping_modes_;

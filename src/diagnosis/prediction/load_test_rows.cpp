@@ -4,7 +4,7 @@
 #include "core/error.hpp"
 #include "diagnosis/prediction/predictor.hpp"
 
-/// Rows of load tests: K u = f in the state that a condition is of, and what its channels show of u.
+/// Rows of load tests: K u = f in the state of a condition, and the values of u at the channels.
 namespace twindeck::diagnosis {
 
 namespace {
@@ -24,12 +24,12 @@ bool support_is_gauged(const FeatureSet& features, const LoadTests& tests, int c
 
 }  // namespace
 
-/// A load test as it is solved: K q = f, and the derivatives of q and of what the ground does by the nuisances.
+/// A solved load test: K q = f, and the derivatives of q and of the ground with respect to the nuisance parameters.
 struct Predictor::SolvedLoadTest {
   Index load_case;
   std::vector<GroundState> ground;
   const SolvedState* state = nullptr;
-  VectorXd answer, q;         ///< in the state's columns, then its own degrees of freedom; in all of the reduced model's
+  VectorXd answer, q;  ///< response in the state's columns and own degrees of freedom; in all columns of the reduced model
   MatrixXd slopes, relative;  ///< d answer (size × unknowns); d factor of a ground (n_grounds × unknowns)
 };
 
@@ -53,7 +53,7 @@ bool Predictor::ground_of(const Condition& condition, int c, std::vector<GroundS
           moved_away = moved_away || support_is_gauged(map_.features(), tests, c, static_cast<int>(g));
       }
     }
-    ground[g].factor *= 1.0 + change;  // of what the parameter has made of it
+    ground[g].factor *= 1.0 + change;  // on top of the parameter's factor
   }
   return !moved_away;
 }
@@ -76,7 +76,7 @@ MatrixXd Predictor::load_slopes(SolvedLoadTest& test) {
       loads.col(j).head(n) += slope * held(state.columns);
     }
   }
-  if (with_jacobian_) {  // without it the base's store is read by several threads, and `changes` may write to it
+  if (with_jacobian_) {  // otherwise several threads read the base's store, and `changes` may write to it
     const auto& change = changes(state);
     const MatrixXd held = changed(state, false, test.answer);
     for (std::size_t k = 0; k < change.position.size(); ++k) loads.col(change.position[k]) -= held.col(static_cast<Index>(k));
@@ -93,7 +93,7 @@ void Predictor::predict_load_tests(int c) {
   SolvedLoadTest test;
   test.load_case = static_cast<Index>(named - tests.cases.begin());
   if (!ground_of(condition, c, test.ground)) {
-    out_.valid = false;  // a support's gauge stands elsewhere too, and nobody has said where
+    out_.valid = false;  // a moved support has its gauge elsewhere, at an unknown position
     return;
   }
   const SolvedState& state = solved(c);
@@ -103,14 +103,14 @@ void Predictor::predict_load_tests(int c) {
   load.head(n) = load_of(tests, test.load_case, test.ground)(state.columns);
   const Eigen::LLT<MatrixXd> factor(state.state.stiffness);
   if (factor.info() != Eigen::Success) {
-    out_.valid = false;  // a structure that falls shows nothing
+    out_.valid = false;  // an unstable structure has no response
     return;
   }
   test.answer = factor.solve(load);
   test.q = VectorXd::Zero(map_.model().size());
   test.q(state.columns) = test.answer.head(n);
   test.slopes = load_slopes(test);
-  if (test.slopes.size() > 0) test.slopes = factor.solve(test.slopes).eval();  // without unknowns there is nothing to solve for
+  if (test.slopes.size() > 0) test.slopes = factor.solve(test.slopes).eval();  // there may be no unknowns
   for (std::size_t r = 0; r < features.rows.size(); ++r)
     if (features.rows[r].condition == c && is_static(features.rows[r].type)) predict_static_row(test, r);
 }
@@ -124,7 +124,7 @@ void Predictor::predict_static_row(const SolvedLoadTest& test, std::size_t r) {
   const std::vector<int>& columns = test.state->columns;
   RowVectorXd shown;  // d row / d q in the state's columns
   double value = 0.0;
-  VectorXd direct = VectorXd::Zero(unknowns);  // beside what q does
+  VectorXd direct = VectorXd::Zero(unknowns);  // part that does not depend on q
   if (row.type == RowType::static_force) {
     const ForceGauge& gauge = tests.forces[static_cast<std::size_t>(row.channel)];
     const GroundState& here = test.ground[static_cast<std::size_t>(gauge.ground)];

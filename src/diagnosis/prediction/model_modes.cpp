@@ -4,7 +4,7 @@
 
 #include "diagnosis/prediction/predictor.hpp"
 
-/// Modes of the model without dampers, which its form errors are made of, and which of them each measured mode is.
+/// Modes of the model without dampers, for its form errors, and their pairs with measured modes.
 namespace twindeck::diagnosis {
 
 namespace {
@@ -13,8 +13,8 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-constexpr Index kFurtherModes = 12;     // beyond those that were measured: shapes turn into unmeasured neighbours too
-constexpr double kLeastLikeness = 0.3;  // MAC: a mode of a damper or an oscillator is none of the structure's
+constexpr Index kFurtherModes = 12;     // modes above the number measured, because shapes mix with unmeasured neighbours too
+constexpr double kLeastLikeness = 0.3;  // MAC below which a mode belongs to a damper or oscillator, not to the structure
 
 }  // namespace
 
@@ -22,12 +22,12 @@ FormModes Predictor::form_modes() {
   FormModes out;
   const Prediction prediction = run();
   if (!prediction.valid || map_.modes_.empty()) return out;
-  // Alike in the coordinates that every state has. Shapes are mass-normalised with everything that moves in them, so that an
-  // oscillator's own mode, in which the structure hardly does, is like none of the structure's.
+  // Likeness in the coordinates that all states have. Shapes are mass-normalised with all moving masses. So the mode of an
+  // oscillator, in which the structure hardly moves, resembles no mode of the structure.
   const Index c = map_.model().common;
   std::map<const UndampedModes*, int> known;
-  std::vector<MatrixXd> common;  // of each structure's modes (c × n_modes)
-  MatrixXd weighted;             // of the base's, times the mass
+  std::vector<MatrixXd> common;  // modes of each structure (c × n_modes)
+  MatrixXd weighted;             // modes of the base, times the mass
   const auto structure_of = [&](const SolvedState& state) {
     const UndampedModes& all = undamped_.of(state.state.stiffness, state.state.mass);
     const auto [at, is_new] = known.try_emplace(&all, static_cast<int>(std::ssize(out.structures)));

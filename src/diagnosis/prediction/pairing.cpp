@@ -7,7 +7,7 @@
 #include "diagnosis/prediction/predictor.hpp"
 #include "linalg/dense.hpp"
 
-/// Which mode of the model is which measured one.
+/// Pairs of measured modes and modes of the model.
 namespace twindeck::diagnosis {
 
 using Complex = std::complex<double>;
@@ -19,34 +19,33 @@ using Eigen::VectorXd;
 
 namespace {
 
-/// Motion of the channels, of that in the mode that moves them most, below which a mode is at rest there: what is left is
-/// rounding (1e-12 of a girder's vertical motion in its axial modes), which may look like any shape.
+/// [-] Motion of the channels in a mode, over the largest of all modes, below which the mode is at rest there. Smaller motions
+/// are rounding (1e-12 of the vertical motion for axial modes of a girder) and may resemble any shape.
 constexpr double kAtRest = 1e-6;
-constexpr double kNever = 100.0;  ///< in place of 1 - MAC: more than any distance of frequencies weighs
+constexpr double kNever = 100.0;  ///< replaces 1 - MAC of a mode at rest; larger than any cost of frequencies
 
-/// ln of frequencies that counts as one step of unlikeness: of the state that the model is of, and of one in which parts may
-/// have changed so much that frequencies double, where shapes tell more.
+/// Difference of ln f that counts as one step: in the state of the model; in other states, where parts may have changed so much
+/// that frequencies double, and where shapes decide more.
 constexpr double kFrequencyWidth = 0.08, kChangedWidth = 0.35;
-/// Steps up to which a distance of frequencies counts whole, and the share of it that is added at any distance: of two far
-/// modes the nearer one still costs less.
+/// Steps up to which a difference of frequencies counts fully, and the share added at any distance, so that of two far modes
+/// the nearer one costs less.
 constexpr double kFarSteps = 4.0, kFarther = 0.05;
-/// Of the square of that step: frequencies that tell alone are paired in their order. Without it two measured ones above two of
-/// the model cost the same crossed, and rounding would choose.
+/// Weight of the squared steps. With it, modes without shapes are paired in the order of their frequencies. Without it, two
+/// pairs would cost the same crossed, and rounding would decide.
 constexpr double kUncrossed = 1e-6;
 
-/// ln of damping ratios after which a distance counts no more, and the least share of the structural damping that a computed
-/// mode is given where its dampers' part is negative.
+/// Difference of ln of damping ratios above which the cost is constant, and the least total damping of a computed mode over its
+/// structural damping, if its dampers' part is negative.
 constexpr double kFarDamping = 3.0, kLeastDamping = 1e-3;
 
-/// Steps of frequency that 1 - MAC = 1 weighs: of a shape measured in this condition, of one measured under the same name in
-/// another condition, and of the model's mode that the name is bound to. The last is more than `kFarSteps`, so a bound name
-/// decides up to a distance of 40 steps. The others are less, so two far frequencies outweigh two measured shapes.
+/// Steps that 1 - MAC = 1 costs: for a shape measured in this condition, for one measured under the same name in another
+/// condition, and for the model's mode that the name is bound to. The last is more than `kFarSteps`, so a bound name decides up
+/// to a distance of 40 steps. The others are less, so two far frequencies outweigh two measured shapes.
 constexpr double kShapeHere = 3.0, kShapeElsewhere = 2.0, kBoundShape = 6.0;
 
-/// Steps that it costs a measured mode with a shape to be none of the model's: a far frequency and half of what its shape
-/// weighs. The right shape at a far frequency costs less; so does a poor shape at the right one, but not a MAC below
-/// kLeastAlike, which is another mode. Without a shape nothing tells a mode from those of the model: it is none of them only
-/// where there are too few.
+/// Steps that it costs a measured mode with a shape to have no mode of the model: a far frequency and half the weight of its
+/// shape. The right shape at a far frequency costs less, and so does a poor shape at the right frequency. A MAC below
+/// kLeastAlike means another mode. A mode without a shape is left without a partner only if the model has too few modes.
 constexpr double kNoCounterpart = kFarSteps + 0.5 * kShapeHere, kLeastAlike = 0.2;
 
 }  // namespace
@@ -77,8 +76,8 @@ const MeasuredMode& Predictor::shaped_like(const MeasuredMode& measured) const {
         break;
       }
   each_action(Primitive::modes_exchange, [&](const Candidate& c, const VectorXd&, const ActionSpec&) {
-    // The shape under this label belongs to the next mode of the list, and the next one's to it. Not the next in frequency:
-    // close modes change places there from one data set to another.
+    // The shape under this label and that of the next mode of the list are exchanged. The list is not sorted by frequency,
+    // because close modes differ in order between data sets.
     std::vector<const MeasuredMode*> same;
     for (const MeasuredMode& other : map_.modes_)
       if (other.condition == shaped->condition && has_shape(other)) same.push_back(&other);
@@ -105,14 +104,14 @@ VectorXd Predictor::unlike_measured(const MeasuredMode& shaped, const SolvedStat
   const MatrixXcd moved = motion(state)(shaped.real_channels, Eigen::all);
   VectorXd unlike = 1.0 - likeness(moved, y).array();
   const VectorXd own =
-      moved.colwise().squaredNorm();  // a shape was measured, so it was none of those at rest, however near in frequency
+      moved.colwise().squaredNorm();  // a mode with a measured shape moves the channels, so no mode at rest can be its partner
   for (Index j = 0; j < own.size(); ++j)
     if (own[j] <= kAtRest * kAtRest * own.maxCoeff()) unlike[j] = kNever;
   return unlike;
 }
 
 VectorXd Predictor::unlike_bound(int position, const SolvedState& state) const {
-  // Modes of the model as it stands move in the common coordinates alone.
+  // Modes of the unchanged model use the common coordinates only.
   const Index common = map_.model().common;
   const VectorXd reference = map_.model().mode_coordinates.col(position);
   const VectorXd mass_reference = matrices(state.columns).second.leftCols(common) * reference;
@@ -136,7 +135,7 @@ VectorXd Predictor::far_from_measured(const MeasuredMode& measured, const Solved
       const double distance = std::abs(std::log(f / measured.frequency_Hz)) / width;
       steps[j] += std::min(distance, kFarSteps) + kFarther * distance + kUncrossed * distance * distance;
     }
-  // What dampers add tells close modes apart where no shape was measured; a factor e is what structural damping leaves open.
+  // The damping by dampers separates close modes without shapes. A factor e is the uncertainty of structural damping.
   if (measured.damping < 0 || !state.state.damped()) return steps;
   const double own = structural_damping(map_.damping_name(measured.label, measured.condition));
   for (Index j = 0; j < n; ++j) {
@@ -150,8 +149,8 @@ void Predictor::pair(const std::vector<int>& conditions) {
   SolvedState& state = solved(conditions.front());
   const Index n = state.modes.s.size();
   if (n == 0) return;
-  // Where the structure is the same, what is measured under one name is one mode: no cause may say that it is this one on a
-  // quiet day and its neighbour at a large amplitude.
+  // In one state of the structure, a label is one mode in all conditions. So no cause may exchange it with its neighbour at a
+  // large amplitude.
   std::vector<std::string> labels;
   std::map<std::string, VectorXd> cost, by_shape;
   std::map<std::string, double> cost_of_none;
@@ -169,7 +168,7 @@ void Predictor::pair(const std::vector<int>& conditions) {
     if (measured.damping >= 0 && state.state.damped()) open += 0.5 * kFarDamping;
     // Shapes are known from this condition, or from another in which the label was measured with one.
     const MeasuredMode& shaped = shaped_like(measured);
-    // Names of modes that are bound to the model's are those of the first state.
+    // Labels are bound to modes of the model in the first state only.
     const auto bound = first ? map_.bound_modes_.find(measured.label) : map_.bound_modes_.end();
     if (shaped.real_rows.size() >= 2) {
       VectorXd unlike = unlike_measured(shaped, state);
@@ -177,14 +176,14 @@ void Predictor::pair(const std::vector<int>& conditions) {
         if (may_be_none(measured) && u > 1.0 - kLeastAlike && u <= 1.0) u = 2.0 * kNoCounterpart / kShapeHere;
       sum += (measured.real_rows.size() >= 2 ? kShapeHere : kShapeElsewhere) * unlike;
     } else if (bound != map_.bound_modes_.end() && bound->second < map_.model().mode_coordinates.cols()) {
-      // No shape tells: the mode of the structure as it stands that the label was given, followed by the likeness of shapes.
+      // Without a shape: the mode of the unchanged structure that the label is bound to, followed by likeness of shapes.
       VectorXd& unlike = by_shape[measured.label];
       if (unlike.size() == 0) unlike = unlike_bound(bound->second, state);
       sum += kBoundShape * unlike;
     }
   }
   const Index count = std::ssize(labels);
-  Eigen::MatrixXd gain(count, n + count);  // the last columns: none of the model's
+  Eigen::MatrixXd gain(count, n + count);  // the last columns mean: no mode of the model
   for (Index i = 0; i < count; ++i) {
     const std::string& label = labels[static_cast<std::size_t>(i)];
     gain.row(i) << -cost.at(label).transpose(), Eigen::RowVectorXd::Constant(count, -cost_of_none.at(label));

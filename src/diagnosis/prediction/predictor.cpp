@@ -16,10 +16,10 @@ using Eigen::Index;
 using Eigen::VectorXcd;
 using Eigen::VectorXd;
 
-constexpr double kLeastDampingPart = 1e-3;      ///< [-] of the structural damping: causes cannot take away all of it
-constexpr double kLeastFrequencyFactor = 0.05;  ///< [-] that an amplitude can leave of a frequency: its logarithm stays finite
-constexpr double kNearlyVertical = 0.9;  ///< [-] vertical part of a channel's direction from which "beside" is taken from x
-constexpr double kNoDirection = 1e-6;    ///< [-] length below which a channel has no direction beside its own
+constexpr double kLeastDampingPart = 1e-3;      ///< [-] least part of the structural damping that causes leave
+constexpr double kLeastFrequencyFactor = 0.05;  ///< [-] of an amplitude; keeps ln f finite
+constexpr double kNearlyVertical = 0.9;  ///< [-] vertical part of a channel's direction; above it, "beside" is found from x
+constexpr double kNoDirection = 1e-6;    ///< [-] length below which a direction counts as zero
 
 }  // namespace
 
@@ -100,11 +100,11 @@ VectorXcd Predictor::shape_at(const std::vector<int>& channels, const SolvedStat
   return motion(state).col(mode)(channels);
 }
 
-/// The model's shape as its channels show it, scaled to the measured one by weighted least squares on all rows of the shape.
+/// Shape of the model at the channels, scaled to the measured one by weighted least squares on all rows of the shape.
 struct Predictor::ScaledShape {
   bool complex_rows;                    ///< measured with imaginary parts
-  VectorXcd real_part, imaginary_part;  ///< at the channels of the real and of the imaginary rows, not scaled
-  Complex turn = 1.0;                   ///< of a shape that was measured as real: to be as real as it can
+  VectorXcd real_part, imaginary_part;  ///< at the channels of the real and of the imaginary rows, without the scale
+  Complex turn = 1.0;                   ///< rotation of a shape measured as real, which makes it as real as possible
   Complex scale = 1.0;
 };
 
@@ -227,9 +227,9 @@ Predictor::AddedToMode Predictor::added_to(const MeasuredMode& measured, const S
     const double wp = 2.0 * std::numbers::pi * c.value(action.number.at("frequency"), a),
                  zp = c.value(action.number.at("damping"), a);
     const Complex transfer = (2.0 * zp * wp * s + wp * wp) / (s * s + 2.0 * zp * wp * s + wp * wp);
-    const Complex change = -0.5 * ratio * (transfer - 1.0);  // ds/s for a mass that follows by `transfer` instead of rigidly
+    const Complex change = -0.5 * ratio * (transfer - 1.0);  // ds/s for a mass that follows with `transfer` instead of rigidly
     added.frequency += change.real();
-    added.damping_pct += 100.0 * change.imag();  // ds = s change with s nearly i |s|: -Re ds / |s| is Im change
+    added.damping_pct += 100.0 * change.imag();  // ds = s change and s is nearly i |s|, so -Re ds / |s| is Im change
   });
   return added;
 }
@@ -367,11 +367,11 @@ Prediction Predictor::run() {
     if (row.type == RowType::rms || row.type == RowType::psd_floor) loaded[static_cast<std::size_t>(row.condition)] = true;
   for (const Row& row : map_.features().rows)
     if (is_static(row.type)) tested[static_cast<std::size_t>(row.condition)] = true;
-  std::vector<std::vector<int>> alike;  // conditions in one state of the structure
+  std::vector<std::vector<int>> alike;  // conditions in the same state of the structure
   for (std::size_t c = 0; c < modal.size(); ++c) {
     if (!modal[c]) continue;
     const auto condition = static_cast<int>(c);
-    // A mode's name holds within a state: two states are paired separately, though nothing may have changed between them yet.
+    // A label holds within one state. Two states are paired separately, even if nothing has changed between them yet.
     const auto known = std::find_if(alike.begin(), alike.end(), [&](const auto& group) {
       return &solved(group[0]) == &solved(condition) && map_.same_state(group[0], condition);
     });

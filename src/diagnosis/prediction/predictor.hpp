@@ -14,28 +14,27 @@
 /// Private to src/diagnosis: one evaluation of g(x, a).
 namespace twindeck::diagnosis {
 
-/// A state of the structure that several conditions may share, with its modes.
+/// A state of the structure, shared by conditions, with its modes.
 struct SolvedState {
-  std::vector<int> columns;  ///< of the reduced model; own degrees of freedom of causes lie behind them
+  std::vector<int> columns;  ///< of the reduced model; own degrees of freedom of causes come after them
   StructureState state;
   StateModes modes;
   std::map<Eigen::Index, ModeDerivative> derivatives;
-  /// A part of the state that a cause scales or moves and that goes with a parameter.
+  /// A part of the state that a cause scales or moves and that depends on a parameter.
   struct Followed {
     int parameter = 0;
     double amount = 0.0;                  ///< of the part, per unit of the parameter
-    const ReducedMatrix* part = nullptr;  ///< null where it is a spring
+    const ReducedMatrix* part = nullptr;  ///< null for a spring
     bool mass = false;
-    Eigen::VectorXd spring;  ///< (n) b of the part b b', a spring of a support that was moved
-    int nuisance = -1;       ///< the part goes with this unknown, not with a parameter
+    Eigen::VectorXd spring;  ///< (n) b of the part b b', the spring of a moved support
+    int nuisance = -1;       ///< the part depends on this nuisance parameter instead
   };
   std::vector<Followed> followed;
 };
 
-inline constexpr double kUsualDamping_pct = 0.5;  ///< structural, of a mode that was not measured: steel decks have 0.3 to 0.8
+inline constexpr double kUsualDamping_pct = 0.5;  ///< structural damping of an unmeasured mode; steel decks have 0.3 to 0.8
 
-/// What an unknown does to a matrix of a state, per unit: dense in its coordinates, or `amount` times a projected one of few
-/// degrees of freedom.
+/// Change of a state's matrix per unit of a nuisance parameter: dense, or `amount` times a local reduced matrix.
 struct MatrixChange {
   Eigen::MatrixXd dense;
   double amount = 0.0;
@@ -43,8 +42,8 @@ struct MatrixChange {
   [[nodiscard]] bool empty() const { return dense.size() == 0 && local == nullptr; }
 };
 
-/// States of one base by the causes that act in them and the circumstances that they depend on; changes of the nuisances by
-/// columns. Own degrees of freedom of causes lie behind the columns; nothing in x changes them.
+/// Solved states of one base, by the causes that act and the circumstances. Changes by nuisance parameters are stored by
+/// columns; the own degrees of freedom of causes do not change with x.
 struct StateStore {
   struct Changes {
     std::vector<int> position;  ///< among the nuisances
@@ -55,11 +54,11 @@ struct StateStore {
   std::map<std::vector<int>, std::pair<Eigen::MatrixXd, Eigen::MatrixXd>> matrices;  ///< stiffness and mass by columns
   UndampedStore undamped;
 
-  /// Stiffness and mass in the columns behind the common ones (n × n_own): every magnitude of a candidate needs the same.
+  /// Stiffness and mass in the columns after the common ones (n × n_own), the same for every magnitude of a candidate.
   struct OwnColumns {
     Eigen::MatrixXd stiffness, mass;
   };
-  /// Those of a list of columns, computed once. Safe for several threads.
+  /// Own columns for a list of columns, computed once. Safe for several threads.
   template <typename Compute>
   const OwnColumns* own_columns(const std::vector<int>& columns, Compute compute) {
     {
@@ -74,7 +73,7 @@ struct StateStore {
   std::map<std::vector<int>, OwnColumns> own;
 };
 
-/// Modal assurance criterion of each mode (n_channels × n_modes) with one measured shape; 0 where nothing moves.
+/// MAC of each mode (n_channels × n_modes) with one measured shape; 0 for modes at rest.
 [[nodiscard]] Eigen::VectorXd likeness(const Eigen::MatrixXcd& shapes, const Eigen::VectorXcd& measured);
 
 class Predictor {
@@ -89,14 +88,14 @@ class Predictor {
 
   // structure (structure_of_causes.cpp)
   void read_channels();
-  /// What the channels show, without their gains, of some of the reduced model's coordinates (n_channels × n_columns).
+  /// Motion at the channels, without gains, per unit of some of the reduced model's coordinates (n_channels × n_columns).
   [[nodiscard]] Eigen::MatrixXd channel_rows(const std::vector<int>& columns) const;
   [[nodiscard]] bool acts(const Cause& cause, const ActionSpec& action, const Condition& condition) const;
-  /// Relative change of a place's stiffness by an action on it, 0 for an action of another kind.
+  /// Relative change of a location's stiffness by an action, 0 for an action of another kind.
   [[nodiscard]] double stiffness_change(const Cause& cause, const ActionSpec& action, const Condition& condition) const;
   [[nodiscard]] StructureState build_state(const Condition& condition) const;
   void apply(const Cause& cause, const ActionSpec& action, const Condition& condition, StructureState& state) const;
-  /// Adds `change` times the stiffness or mass of a place, as the parameters have made it, to the state that is being built.
+  /// Adds `change` times the stiffness or mass of a location, with the factors of the parameters, to the state being built.
   void add_change(const ReducedPlace& place, double change, bool mass, StructureState& state) const;
   /// Takes a support away and puts it up again at a position on its line, between nodes by interpolation.
   void move_support(const ReducedPlace& support, double position, StructureState& state) const;
@@ -104,7 +103,7 @@ class Predictor {
   /// An oscillator or, as a string, a cable of this mass and circular frequency, with degrees of freedom of its own.
   void apply_body(const ReducedPlace& place, const ActionSpec& action, double mass_kg, double omega_rad_s,
                   StructureState& state) const;
-  /// A spring k b b' that goes with parameters by a ratio.
+  /// Adds a spring k b b' that depends on parameters by a ratio.
   void add_spring(const Eigen::VectorXd& b, double k, const fe::Coefficient& ratio, StructureState& state) const;
   struct DamperInUse;
   [[nodiscard]] DamperInUse damper_in(const Condition& condition, const ReducedPlace& damper) const;
@@ -113,10 +112,10 @@ class Predictor {
   // states, each solved once (solved_states.cpp)
   struct Acting;
   [[nodiscard]] Acting acting_in(const Condition& condition) const;
-  /// Values of a condition that its state depends on: the key of the state beside the causes.
+  /// Values of a condition that its state depends on; part of the state's key.
   [[nodiscard]] std::vector<double> circumstances(const Condition& condition, const Acting& acting) const;
   [[nodiscard]] SolvedState& solved(int condition);
-  /// Matrices of a state in those of the columns that do not depend on each other in it.
+  /// Builds the matrices of a state in those of the columns that are independent in it.
   void build(SolvedState& entry, const Condition& condition, const std::vector<int>& columns) const;
   [[nodiscard]] static Eigen::MatrixXd sliced(const ReducedMatrix& full, const std::vector<int>& columns, Eigen::Index size);
   [[nodiscard]] static Eigen::VectorXd sliced(const ReducedDirections& full, Eigen::Index d, const std::vector<int>& columns,
@@ -125,38 +124,37 @@ class Predictor {
   /// Stiffness and mass without causes, in some of the reduced model's coordinates.
   [[nodiscard]] const std::pair<Eigen::MatrixXd, Eigen::MatrixXd>& matrices(const std::vector<int>& columns) const;
   [[nodiscard]] const ModeDerivative& derivative(SolvedState& solved, Eigen::Index mode);
-  /// Derivatives of some modes, where they are not known yet: each changed matrix is read once for all of them.
+  /// Computes missing derivatives of some modes together, so that each changed matrix is read once.
   void differentiate_modes(SolvedState& solved, std::vector<Eigen::Index> modes) const;
-  /// Those of every mode that was paired with a measured one.
+  /// Computes the derivatives of all modes paired with measured ones.
   void differentiate_paired();
-  /// Changes of a state's stiffness or mass times each column of x, those that causes share with a parameter included
-  /// (size × n_columns n_changes).
+  /// Changes of a state's stiffness or mass times each column of x, including parts that causes share with a parameter (size ×
+  /// n_columns n_changes).
   [[nodiscard]] Eigen::MatrixXd changed(const SolvedState& state, bool mass, const Eigen::MatrixXd& x) const;
   /// Changes of a matrix times each column of x (size × n_columns): (size × n_columns n_changes), column by column of x.
   [[nodiscard]] Eigen::MatrixXd times(const std::vector<int>& columns, const std::vector<MatrixChange>& changes,
                                       const Eigen::MatrixXd& x) const;
 
-  // which mode is which (pairing.cpp)
-  /// Model modes of what was measured in conditions that share a state: the one-to-one assignment at the least distance of
-  /// frequencies, shapes and, with dampers, damping.
+  // which mode is which (pairing.cpp) Pairs the measured modes of conditions in one state with modes of the model: one-to-one,
+  // at the least cost of frequencies, shapes and, with dampers, damping.
   void pair(const std::vector<int>& conditions);
-  /// The mode whose measured shape this one should have: itself, or one of the same name.
+  /// The measured mode whose shape is used: itself, or one of the same label.
   [[nodiscard]] const MeasuredMode& shaped_like(const MeasuredMode& measured) const;
   /// 1 - MAC of each mode of a state with a measured shape (n_modes).
   [[nodiscard]] Eigen::VectorXd unlike_measured(const MeasuredMode& shaped, const SolvedState& state);
-  /// Whether a measured mode may be none of the model's: its shape tells that. What is held out is always held against the
+  /// Whether a measured mode may have no mode of the model. This needs a shape. Held-out modes are always compared with the
   /// model.
   [[nodiscard]] bool may_be_none(const MeasuredMode& measured) const;
   /// Steps of frequency and damping between a measured mode and each mode of a state (n_modes).
   [[nodiscard]] Eigen::VectorXd far_from_measured(const MeasuredMode& measured, const SolvedState& state, double width) const;
-  /// The same with a mode of the structure as it stands, by the whole shape (n_modes).
+  /// 1 - MAC with a mode of the unchanged structure, over the whole shape (n_modes).
   [[nodiscard]] Eigen::VectorXd unlike_bound(int position, const SolvedState& state) const;
 
   // modes
   void predict_mode(const MeasuredMode& measured, std::size_t position);
-  /// What causes do to a mode that is not in the state's matrices.
+  /// Changes of a mode by causes that are not in the state's matrices.
   struct AddedToMode {
-    double frequency = 0.0, damping_pct = 0.0;  ///< to ln f; to the damping ratio
+    double frequency = 0.0, damping_pct = 0.0;  ///< change of ln f; change of the damping ratio
   };
   [[nodiscard]] AddedToMode added_to(const MeasuredMode& measured, const SolvedState& state, Eigen::Index mode) const;
   /// Change of -100 Re s / |s| with s.
@@ -165,11 +163,11 @@ class Predictor {
   [[nodiscard]] bool is_damping_of(const Nuisance& v, const std::string& damping_name) const;
   void differentiate_mode(const MeasuredMode& measured, SolvedState& state, Eigen::Index mode, const std::string& damping_name,
                           double own_pct, double total_pct);
-  /// The model mode whose shape stands under this measured one: its pair, or another's where shapes were exchanged.
+  /// The model mode for the shape of a measured one: its pair, or another mode's if shapes were exchanged.
   [[nodiscard]] int mode_of_shape(const MeasuredMode& measured, std::size_t position) const;
   struct ScaledShape;
   [[nodiscard]] ScaledShape scaled_shape(const MeasuredMode& measured, const SolvedState& state, Eigen::Index mode);
-  /// Rows of a measured shape that is none of the model's.
+  /// Leaves the rows of a shape open that has no mode of the model.
   void leave_shape_open(const MeasuredMode& measured);
   void predict_shape(const MeasuredMode& measured, SolvedState& state, Eigen::Index mode);
   void differentiate_shape(const MeasuredMode& measured, SolvedState& state, Eigen::Index mode, const ScaledShape& shape);
@@ -184,30 +182,31 @@ class Predictor {
   };
   [[nodiscard]] ExcitedMode excited_mode(int condition, SolvedState& state, Eigen::Index mode);
   void predict_rms(std::size_t row, SolvedState& state, const std::vector<ExcitedMode>& excited);
-  [[nodiscard]] Eigen::Index level_of(int condition, bool floor) const;  ///< among the nuisances, -1 without one
+  [[nodiscard]] Eigen::Index level_of(int condition, bool floor) const;  ///< among the nuisance parameters, -1 without one
   void predict_stays();
 
   // load tests (load_test_rows.cpp)
   struct SolvedLoadTest;
   void predict_load_tests(int condition);
-  /// What the ground does in a condition, and how its springs follow parameters. @return false if a gauged support was moved
+  /// State of the ground in a condition, with the dependence of its springs on parameters. @return false if a gauged support
+  /// was moved
   [[nodiscard]] bool ground_of(const Condition& condition, int c, std::vector<GroundState>& ground) const;
-  /// Right sides of K dq = df - dK q (size × unknowns), f with the springs of supports that a parameter scales; fills
-  /// `relative` of the test.
+  /// Right-hand sides of K dq = df - dK q (size × unknowns); df includes supports scaled by a parameter. Fills `relative` of
+  /// the test.
   [[nodiscard]] Eigen::MatrixXd load_slopes(SolvedLoadTest& test);
   void predict_static_row(const SolvedLoadTest& test, std::size_t row);
 
-  /// What the channels show of each mode of a state, (n_channels × n_modes), gains, signs and delays of causes included.
+  /// Motion of each mode of a state at the channels (n_channels × n_modes), including gains, signs and delays of causes.
   [[nodiscard]] const Eigen::MatrixXcd& motion(const SolvedState& state);
   [[nodiscard]] Eigen::VectorXcd shape_at(const std::vector<int>& channels, const SolvedState& state, Eigen::Index mode);
-  /// Numbers of causes whose action is this primitive: fn(candidate, coordinates, action).
+  /// Calls fn(candidate, coordinates, action) for all causes with an action of this primitive.
   template <typename Use>
   void each_action(Primitive primitive, Use use) const {
     for (const Cause& cause : causes_)
       for (const ActionSpec& action : cause.candidate->hypothesis->actions)
         if (action.primitive == primitive) use(*cause.candidate, cause.a, action);
   }
-  /// The same of causes that act in the state of the structure that a condition is of.
+  /// The same for causes that act in the state of a condition.
   template <typename Use>
   void each_action(Primitive primitive, const Condition& condition, Use use) const {
     for (const Cause& cause : causes_) {
@@ -216,7 +215,7 @@ class Predictor {
         if (action.primitive == primitive) use(*cause.candidate, cause.a, action);
     }
   }
-  /// A mode in a record's variance under wind, beyond white excitation (wind_load.cpp).
+  /// Contribution of a mode to a record's variance under wind, relative to white excitation (wind_load.cpp).
   struct WindNumbers;
   [[nodiscard]] WindNumbers wind_numbers(const Condition& condition, const std::string& label) const;
   struct MotionInWind;
@@ -229,9 +228,9 @@ class Predictor {
   const FeatureMap::Base& base_;
   const std::vector<Cause>& causes_;
   bool with_jacobian_;
-  mutable std::vector<int> columns_;                     // of the state that is being built
+  mutable std::vector<int> columns_;                     // of the state being built
   mutable std::vector<SolvedState::Followed> followed_;  // likewise
-  /// Rows of the sensors that a channel shows, as causes turn and exchange them, with their weights.
+  /// Rows of the sensors that each channel reads, with weights, after rotations and exchanges by causes.
   std::vector<std::vector<std::pair<Eigen::Index, double>>> channel_views_;
   Eigen::VectorXd channel_factor_, channel_delay_s_;
   std::map<const SolvedState*, Eigen::MatrixXcd> motion_;

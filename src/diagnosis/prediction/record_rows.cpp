@@ -12,7 +12,7 @@ using Complex = std::complex<double>;
 using Eigen::Index;
 using Eigen::VectorXd;
 
-constexpr double kLeastDamping_pct = 0.02;  ///< of a mode under white excitation, whose variance grows as 1 / damping
+constexpr double kLeastDamping_pct = 0.02;  ///< of a mode under white excitation, whose variance is proportional to 1 / damping
 
 }  // namespace
 
@@ -36,7 +36,7 @@ Predictor::ExcitedMode Predictor::excited_mode(int c, SolvedState& state, Index 
   each_action(Primitive::wind_damping, condition, [&](const Candidate& candidate, const VectorXd& a, const ActionSpec& action) {
     zeta_pct += 100.0 * candidate.value(action.number.at("rate"), a) * condition.wind_m_s.value_or(0.0);
   });
-  // White excitation: the variance of a mode's acceleration goes with omega / zeta.
+  // White excitation: the variance of a mode's acceleration is proportional to omega / zeta.
   ExcitedMode out = wind_load(condition, state, mode, label);
   const Complex s = state.modes.s[mode];
   out.weight *= std::abs(s) / std::max(zeta_pct, kLeastDamping_pct);

@@ -5,7 +5,7 @@
 #include "diagnosis/prediction/predictor.hpp"
 #include "diagnosis/reduction/independent_coordinates.hpp"
 
-/// States of the structure: which one a condition has, each solved once, and how its modes go with the unknowns.
+/// States of the structure: the state of each condition, solved once, and the derivatives of its modes.
 namespace twindeck::diagnosis {
 
 namespace {
@@ -13,16 +13,16 @@ namespace {
 using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
-constexpr double kUnknown = -1e300;  ///< in the key of a state: a circumstance that the condition does not tell
+constexpr double kUnknown = -1e300;  ///< in the key of a state: unknown value of the condition
 
 }  // namespace
 
-/// What acts in a condition: conditions and causes that agree in it share one solution.
+/// Causes and circumstances that act in a condition. Conditions with equal ones share one solution.
 struct Predictor::Acting {
-  std::vector<double> causes, before_last;  ///< the causes that act here, by entry and magnitudes; without the last of them
-  bool follows = false;                     ///< the last one leaves dampers alone and adds no motion of its own
-  std::vector<int> columns;                 ///< of the reduced model that the state needs
-  bool temperature = false, amplitude = false, wind = false;  ///< on which the state depends
+  std::vector<double> causes, before_last;  ///< acting causes, by entry and magnitudes; the same without the last one
+  bool follows = false;                     ///< the last cause does not act on dampers and adds no degree of freedom
+  std::vector<int> columns;                 ///< columns of the reduced model that the state needs
+  bool temperature = false, amplitude = false, wind = false;  ///< circumstances that the state depends on
 };
 
 Predictor::Acting Predictor::acting_in(const Condition& condition) const {
@@ -44,7 +44,7 @@ Predictor::Acting Predictor::acting_in(const Condition& condition) const {
     if (!any) continue;
     out.before_last = out.causes;
     out.follows = !alone;
-    // The catalogue entry itself and its magnitudes name the cause.
+    // A cause is identified by its catalogue entry and its magnitudes.
     out.causes.push_back(static_cast<double>(reinterpret_cast<std::uintptr_t>(cause.candidate)));
     for (Index i = 0; i < cause.a.size(); ++i) out.causes.push_back(cause.a[i]);
     for (const ReducedPlace* place : cause.candidate->places)
@@ -89,7 +89,7 @@ void Predictor::build(SolvedState& entry, const Condition& condition, const std:
 
 namespace {
 
-/// Modes of a state in the coordinates of another that has the same own degrees of freedom; none if it lacks one of its
+/// Modes of a state in the coordinates of another one with the same own degrees of freedom; empty if it lacks one of the
 /// columns.
 StateModes in_coordinates_of(const SolvedState& state, const SolvedState& near) {
   const auto shared = static_cast<Index>(near.columns.size()), own = near.modes.shapes.rows() - shared;
@@ -119,9 +119,9 @@ SolvedState& Predictor::solved(int c) {
   if (!entry) {
     entry = std::make_shared<SolvedState>();
     build(*entry, condition, acting.columns);
-    // Only what comes back is kept: states without causes, or those that a Jacobian is about to be taken of.
+    // Only states that will be used again are kept: those without causes, and those that a Jacobian will be computed for.
     const bool kept = acting.causes.empty() || with_jacobian_ || base_.keeps;
-    // Damped modes follow from those without the last cause.
+    // Damped modes are followed from those without the last cause.
     const auto neighbour = acting.follows ? states.find({acting.before_last, key}) : states.end();
     StateModes from;
     if (neighbour != states.end() && entry->state.damped()) from = in_coordinates_of(*entry, *neighbour->second);
@@ -150,7 +150,7 @@ const StateStore::Changes& Predictor::changes(const SolvedState& state) const {
     const Nuisance& v = map_.nuisances()[j];
     MatrixChange dk, dm;
     const auto add = [&](MatrixChange& to, double a, const ReducedMatrix& from) {
-      if (from.is_local() && to.empty()) {  // multiplied out where it is used: a thousand dense ones would fill the memory
+      if (from.is_local() && to.empty()) {  // multiplied when needed: a thousand dense matrices would fill the memory
         to.amount = a;
         to.local = &from;
         return;
@@ -213,7 +213,7 @@ MatrixXd Predictor::changed(const SolvedState& state, bool mass, const MatrixXd&
   for (const SolvedState::Followed& followed : state.followed) {
     if (followed.mass != mass) continue;
     MatrixXd part = MatrixXd::Zero(x.rows(), x.cols());
-    if (const Index n = followed.spring.size(); n > 0)  // own degrees of freedom of later causes lie below
+    if (const Index n = followed.spring.size(); n > 0)  // own degrees of freedom of later causes come after n
       part.topRows(n) = followed.spring * (followed.spring.transpose() * x.topRows(n));
     else
       part = sliced(*followed.part, state.columns, x.rows()) * x;

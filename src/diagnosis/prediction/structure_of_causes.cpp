@@ -17,7 +17,7 @@ using Eigen::MatrixXd;
 using Eigen::VectorXd;
 constexpr double kPersonMass = 75.0;  ///< [kg] the base model's crowd
 
-/// Value of the condition's key that an action refers to, NaN where it is not known.
+/// Value of the condition's key that an action refers to, NaN if unknown.
 double variable(const ActionSpec& action, const Condition& condition) {
   const auto named = action.text.find("variable");
   const std::string key = named == action.text.end() ? "temperature_C" : named->second;
@@ -28,13 +28,13 @@ double variable(const ActionSpec& action, const Condition& condition) {
   return value(condition.temperature_C);
 }
 
-/// A number of a place, 0 where it has none.
+/// Attribute of a location, 0 if it has none of this name.
 double place_number(const ReducedPlace& place, const char* name) {
   const auto at = place.attributes.find(name);
   return at == place.attributes.end() ? 0.0 : at->second;
 }
 
-/// Adds an own degree of freedom to a state.
+/// Adds one degree of freedom to a state.
 void grow(StructureState& state) {
   const Index n = state.stiffness.rows() + 1;
   state.stiffness.conservativeResizeLike(MatrixXd::Zero(n, n));
@@ -43,7 +43,8 @@ void grow(StructureState& state) {
   if (state.amplitude_row.size() > 0) state.amplitude_row.conservativeResizeLike(Eigen::RowVectorXd::Zero(n));
 }
 
-/// Directions of a place that an action goes by: the vertical one where it says so and the place can move so, else all.
+/// Directions of an action at a location: the vertical one if the action says so and the location can move vertically, else
+/// all.
 std::vector<Index> directions_of(const ReducedPlace& place, const ActionSpec& action) {
   const auto named = action.text.find("direction");
   const bool vertical = named != action.text.end() && named->second == "vertical";
@@ -86,7 +87,7 @@ bool Predictor::acts(const Cause& cause, const ActionSpec& action, const Conditi
   return changes_structure(does);
 }
 
-/// A damper as its causes leave it.
+/// A damper with the changes by causes.
 struct Predictor::DamperInUse {
   double damping, stiffness, threshold;
   std::pair<const ReducedDirections*, Index> direction;
@@ -130,7 +131,7 @@ void Predictor::apply_dampers(const Condition& condition, StructureState& state)
     const DamperInUse used = damper_in(condition, damper);
     const bool acts = on && !used.absent, moved = used.direction.first != &damper.directions;
     const bool in_series = used.series && used.stiffness > 0.0;
-    // The model's stiffness holds the spring of a fitted damper, unless it is in series with the dashpot.
+    // The model's stiffness includes the spring of a fitted damper, unless it is in series with the dashpot.
     const double spring = place_number(damper, "stiffness"),
                  held = fitted && place_number(damper, "series") == 0.0 ? spring : 0.0;
     const double beside = acts && !used.sliding && !in_series ? spring : 0.0;
@@ -191,7 +192,7 @@ void Predictor::apply(const Cause& cause, const ActionSpec& action, const Condit
   }
 }
 
-// What a place's own error makes of it changes with it: half of a bearing that is 10 % too stiff is half of that.
+// A cause scales a location with its own error: half of a bearing that is 10 % too stiff is 0.55.
 void Predictor::add_change(const ReducedPlace& place, double change, bool mass, StructureState& state) const {
   MatrixXd& to = mass ? state.mass : state.stiffness;
   const ReducedMatrix& whole = mass ? place.mass : place.stiffness;
@@ -245,7 +246,7 @@ void Predictor::apply_spring(const Candidate& candidate, const ActionSpec& actio
   const ReducedPlace& other = *candidate.places[1];
   const Eigen::Vector3d along = other.x_m - place.x_m;
   const Index shared = std::min(place.directions.cols(), other.directions.cols());
-  if (along.allFinite() && along.norm() > 0.0 && shared == 3) {  // a tie pulls along its line
+  if (along.allFinite() && along.norm() > 0.0 && shared == 3) {  // a tie acts along its line
     VectorXd b = VectorXd::Zero(n);
     for (Index d = 0; d < 3; ++d) b += along.normalized()[d] * (own(place, d) - own(other, d));
     add(b);
@@ -257,12 +258,12 @@ void Predictor::apply_spring(const Candidate& candidate, const ActionSpec& actio
 void Predictor::apply_body(const ReducedPlace& place, const ActionSpec& action, double m, double omega,
                            StructureState& state) const {
   const bool string = action.primitive == Primitive::element_string;
-  // An attached body moves in every direction that the node has, or vertically alone; a cable in the two across its chord.
+  // An attached body moves in all directions of the node, or only vertically; a cable in the two directions across its chord.
   for (const Index d : directions_of(place, action)) {
     grow(state);
     const Index k = state.stiffness.rows() - 1;
     const VectorXd b = sliced(place.directions, d, columns_, k + 1);
-    if (string) {  // first sine on a chord whose lower end moves: mass m/2 with itself, m/pi with the end, m/3 at the end
+    if (string) {  // first sine of a chord with a moving lower end: mass m/2 of itself, m/pi with the end, m/3 at the end
       state.mass += m / 3.0 * b * b.transpose();
       state.mass(k, k) += 0.5 * m;
       state.mass.col(k) += m / std::numbers::pi * b;

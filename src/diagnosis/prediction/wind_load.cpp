@@ -29,7 +29,7 @@ Eigen::Vector2d normal_in_plan(const ReducedModel& model) {
 
 }  // namespace
 
-/// Numbers of the wind and of what causes do to them.
+/// Parameters of the wind, with the changes by causes.
 struct Predictor::WindNumbers {
   double power = 0.0, skew = 1.0, drag = 1.0, lift = 1.0, length = 60.0, intensity = 1.0, coherence = 8.0, resonance = 1.0,
          lee = 1.0;
@@ -91,7 +91,8 @@ Predictor::MotionInWind Predictor::motion_in_wind(const Eigen::Vector2d& along, 
   return out;
 }
 
-/// Quasi-steady buffeting on unit widths at the nodes (Davenport 1962), as far as it tells modes, speeds and directions apart:
+/// Quasi-steady buffeting on unit widths at the nodes (Davenport 1962), for its differences between modes, speeds and
+/// directions:
 ///   S_F ~ V² cos² beta (d² + l²) S(f L / V) L / V J(f / V),  S(n) = 1 / (1 + 10.2 n)^(5/3),  J = 1 / (1 + c f B / V),
 /// d, l the mode's motion along the wind and upwards. The level of each record is free.
 Predictor::ExcitedMode Predictor::wind_load(const Condition& condition, SolvedState& solved, Eigen::Index mode,

@@ -16,11 +16,12 @@ namespace {
 
 using Eigen::Index;
 
-/// Times the highest measured frequency: causes and parameters may lower a mode by a third into the measured band, as a change
-/// of stiffness by 0.44 does, and modes above the band carry a part of what static vectors leave of those in it.
+/// Times the highest measured frequency. A cause or parameter may lower a mode by a third, for example a factor 0.44 on
+/// stiffness, so modes from above can enter the measured band. Modes above the band also represent part of the errors of static
+/// vectors within it.
 constexpr double kReach = 1.5;
 
-/// Of a basis, as the setting `modes`: the time of a search grows with the third power of its size.
+/// Most modes of a basis, as for the setting `modes`. The time of a search grows with the third power of the size.
 constexpr int kMostModes = 200;
 
 double highest_measured(const FeatureSet& features) {
@@ -34,8 +35,8 @@ int count_up_to(const Eigen::VectorXd& ascending_Hz, double highest_Hz) {
   return static_cast<int>((ascending_Hz.array() <= highest_Hz).count());
 }
 
-/// The shortest of some modes' waves, told from how far each element's ends move and how far they move apart. Elements whose
-/// ends hang on other nodes tell nothing. @param shapes  (n_dofs × n_modes)
+/// Shortest wavelength of some modes, from the displacements of the elements' ends and their differences. Elements whose ends
+/// depend on other nodes are skipped. @param shapes  (n_dofs × n_modes)
 double shortest_wave_m(const Structure& structure, const Eigen::MatrixXd& shapes) {
   if (structure.model == nullptr || shapes.cols() == 0) return 0.0;
   std::map<std::string, std::vector<std::pair<int, Index>>> rows;  // direction and dof of each node's displacements
@@ -86,7 +87,7 @@ BasisModes modes_of_basis(const Structure& structure, const FeatureSet& features
     tell_wave(modes.shapes);
     const int inside = count_up_to(out.frequency_Hz, out.reach_Hz);
     if (inside < out.frequency_Hz.size() || out.frequency_Hz.size() < std::min(asked, dofs)) {
-      out.modes = std::max(least, inside + 1);  // with the first beyond
+      out.modes = std::max(least, inside + 1);  // with the first mode above the reach
       if (out.modes > least) out.in_band = count_up_to(out.frequency_Hz, out.reach_Hz / kReach);
       return out;
     }

@@ -10,14 +10,14 @@ namespace twindeck::diagnosis {
 /// A symmetric matrix on the free dofs, both triangles; no entries where there is nothing.
 using Symmetric = Eigen::SparseMatrix<double>;
 
-/// The same as its block over the degrees of freedom that it touches. A place touches a dozen, and a sparse matrix alone lists
-/// all columns: of a thousand places these lists would fill the memory. Copies share the block.
+/// Symmetric matrix stored as the block of its nonzero degrees of freedom. A location touches about a dozen. A sparse matrix
+/// would list all columns, which for a thousand locations would fill the memory. Copies share the block.
 class CompactMatrix {
  public:
   CompactMatrix() = default;
   CompactMatrix(const Symmetric& whole);  // NOLINT(google-explicit-constructor): the same matrix
 
-  [[nodiscard]] Eigen::Index size() const { return size_; }  ///< n; 0 where there is nothing
+  [[nodiscard]] Eigen::Index size() const { return size_; }  ///< n; 0 for an empty matrix
   [[nodiscard]] Eigen::Index nonZeros() const { return size_ > 0 ? block().nonZeros() : 0; }
   [[nodiscard]] const std::vector<int>& dofs() const { return content_->dofs; }        ///< that it touches
   [[nodiscard]] const Symmetric& block() const { return content_->block; }             ///< over them

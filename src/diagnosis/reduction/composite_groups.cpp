@@ -9,9 +9,9 @@ namespace twindeck::diagnosis {
 
 namespace {
 
-constexpr std::size_t kMostParts = 6;  ///< that differ between names: more are no scheme of names
+constexpr std::size_t kMostParts = 6;  ///< most parts that may differ between names; with more, the names follow no scheme
 
-/// A name with a mark in place of each of its parts, and the parts.
+/// A name, with a mark in place of each part, and its parts.
 struct NameInParts {
   std::string form;
   std::vector<std::string> parts;
@@ -49,7 +49,7 @@ std::vector<std::vector<std::string>> composite_groups(const std::vector<std::st
           break;
         }
     if (vary.size() > kMostParts) continue;
-    for (std::size_t any = 1; any < (std::size_t{1} << vary.size()); ++any) {  // the parts that may be anything
+    for (std::size_t any = 1; any < (std::size_t{1} << vary.size()); ++any) {  // bits: parts that may differ
       std::map<std::vector<std::string>, std::vector<std::string>> alike;
       for (const auto& [name, parts] : members) {
         std::vector<std::string> kept = parts;

@@ -14,7 +14,7 @@ namespace twindeck::diagnosis {
 namespace {
 
 using Eigen::Index;
-constexpr double kRigid = 1e4;  // stiffness of what stands for a rigid support, over that of what it holds
+constexpr double kRigid = 1e4;  // stiffness of a spring that replaces a rigid support, over that of the structure at its node
 
 /// Translational and rotational stiffness of the beams and shells at a node.
 std::pair<double, double> stiffness_at(const fe::Model& model, int node) {
@@ -41,7 +41,7 @@ std::pair<double, double> stiffness_at(const fe::Model& model, int node) {
 
 void release_supports(fe::Model& model, std::vector<std::string>& rigid) {
   static const char* names[] = {"x", "y", "z", "rx", "ry", "rz"};
-  std::map<std::string, int> nodes_of;  // a support may hold several nodes under one name; springs have names of their own
+  std::map<std::string, int> nodes_of;  // one name may hold several nodes; springs have names of their own
   for (const fe::Support& support : model.supports) ++nodes_of[support.name];
   for (fe::Support& support : model.supports) {
     const auto [translation, rotation] = stiffness_at(model, support.node);
@@ -106,7 +106,7 @@ matching::Measured channels_at_points(const std::vector<matching::Channel>& chan
   matching::Measured points;
   points.source = "channels.csv";
   for (const matching::Channel& channel : channels) {
-    if (!channel.is_at_a_point()) continue;  // strain and force gauges show no displacement
+    if (!channel.is_at_a_point()) continue;  // strain and force gauges measure no displacement
     points.channels.push_back(channel);
     points.modes.dofs.push_back({channel.point.empty() ? channel.name : channel.point, channel.name});
   }
@@ -145,7 +145,7 @@ Structure DiagnosedModel::structure() const {
       if (channels[static_cast<std::size_t>(c)].is_at_a_point()) at_points.push_back(c);
     if (at_points.empty()) return values;
     matching::Measured asked = channels_at_points(channels);
-    for (int kind = 0; kind < 4; ++kind) {  // along the channel, then x, y, z at its place
+    for (int kind = 0; kind < 4; ++kind) {  // the channel's direction, then x, y, z at its node
       for (matching::Channel& channel : asked.channels)
         if (kind > 0) channel.direction = Eigen::Vector3d::Unit(kind - 1);
       dynamics::EigenModes modes;

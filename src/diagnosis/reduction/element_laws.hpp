@@ -9,7 +9,7 @@
 #include "fe/assembly_elements.hpp"
 #include "fe/assembly_terms.hpp"
 
-/// Private to src/diagnosis: how elements and springs go with the parameters of a finite element model.
+/// Private to src/diagnosis: dependence of elements and springs on the parameters of a finite element model.
 namespace twindeck::diagnosis {
 
 class ElementLaws {
@@ -18,14 +18,14 @@ class ElementLaws {
 
   explicit ElementLaws(const Structure& structure);
 
-  /// Of what elements, and springs between nodes, add to a matrix together.
+  /// Law of the sum of elements, and of springs between nodes, in a matrix.
   [[nodiscard]] Law stiffness(const std::vector<int>& elements, const std::vector<const fe::Spring*>& springs = {}) const;
   [[nodiscard]] Law mass(const std::vector<int>& elements) const;
-  /// Of a spring's stiffness.
+  /// Law of a spring's stiffness.
   [[nodiscard]] fe::Coefficient of_spring(const fe::Spring& spring) const;
 
  private:
-  /// Terms of the system's matrix before they are assembled, and those that each element is in.
+  /// Terms of the system's matrix before assembly, and the terms of each element.
   struct Plans {
     std::vector<fe::TermPlan> plans;
     std::vector<std::size_t> ratio;                    ///< (n_plans) position in `ratios`

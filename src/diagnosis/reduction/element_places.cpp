@@ -18,7 +18,7 @@ namespace {
 
 using Eigen::Index;
 
-constexpr double kMostlyVertical = 0.7;  // [-] vertical part of a bearing's direction
+constexpr double kMostlyVertical = 0.7;  // [-] least vertical part of the direction of a vertical bearing
 
 fe::ElementMatrix element_stiffness(const fe::Model& model, std::size_t e, const std::vector<std::uint8_t>& straight_sides) {
   const fe::Element& element = model.elements[e];
@@ -38,7 +38,7 @@ fe::ElementMatrix element_stiffness(const fe::Model& model, std::size_t e, const
   }
 }
 
-/// Two symmetric matrices that differ by a factor alone, or are both not there.
+/// Whether two symmetric matrices differ by a factor only, or are both zero.
 bool alike(const Symmetric& a, const Symmetric& b) {
   if (a.size() == 0 || b.size() == 0) return a.nonZeros() == 0 && b.nonZeros() == 0;
   constexpr double kSame = 1e-9;
@@ -89,12 +89,12 @@ std::vector<int> ElementPlaces::measured_nodes() const {
 void ElementPlaces::add_zones(const std::vector<int>& centres, Places& places, std::vector<Eigen::Vector3d> points) const {
   if (points.empty())
     for (const int c : centres) points.push_back(centroids_[static_cast<std::size_t>(c)]);
-  std::map<std::pair<std::size_t, std::string>, std::vector<std::size_t>> zones;  // by centre and group: positions of elements
-  std::vector<std::vector<int>> whole(points.size());  // elements of each zone, whatever their groups
+  std::map<std::pair<std::size_t, std::string>, std::vector<std::size_t>> zones;  // positions of elements by centre and group
+  std::vector<std::vector<int>> whole(points.size());                             // elements of each zone, of all groups
   std::vector<double> least(points.size(), std::numeric_limits<double>::infinity());
   const auto off = [&](std::size_t centre, std::size_t i) { return (centroids_[i] - points[centre]).squaredNorm(); };
   for (std::size_t i = 0; i < candidates_.size(); ++i) {
-    // With a zone an element, an element is its own zone even where two have one middle.
+    // If each element has a zone, an element is its own zone even if two have the same middle.
     const std::size_t centre =
         centres.size() == candidates_.size() ? i : static_cast<std::size_t>(nearest(points, centroids_[i]));
     zones[{centre, model_.elements[static_cast<std::size_t>(candidates_[i])].group}].push_back(i);
@@ -161,7 +161,7 @@ void ElementPlaces::add_stays(Places& places) const {
                 {static_cast<int>(e)},
                 laws_.stiffness({static_cast<int>(e)}),
                 laws_.mass({static_cast<int>(e)})};
-    // A cable's own mode shakes its anchorages across the chord: directions are the two transverse ones of the lower end.
+    // The own mode of a cable moves its anchorages across the chord. Directions: the two transverse ones of the lower end.
     const int low = ends[0].z() <= ends[1].z() ? element.nodes[0] : element.nodes[1];
     const Eigen::Vector3d along = (ends[1] - ends[0]).normalized();
     const Eigen::Vector3d side =
@@ -187,7 +187,7 @@ Place ElementPlaces::damper_place(const fe::Spring& damper) const {
   fe::Spring unit = damper;
   unit.stiffness = 1.0;
   const fe::ElementMatrix k = fe::spring_stiffness(unit);
-  // k = b b': b is its column of the largest diagonal entry over the root of that entry.
+  // k = b b'. b is the column of k with the largest diagonal entry, divided by the root of that entry.
   Index largest = 0;
   k.matrix.diagonal().maxCoeff(&largest);
   std::vector<Eigen::Triplet<double>> entries;
@@ -212,7 +212,7 @@ Place ElementPlaces::damper_place(const fe::Spring& damper) const {
 }
 
 void ElementPlaces::add_dampers(Places& places) const {
-  std::vector<std::string> types;  // dampers of one make are wrong in the same way
+  std::vector<std::string> types;  // dampers of one make have the same error
   for (const fe::Spring& spring : model_.springs) {
     if (!spring.is_damper()) continue;
     Place place = damper_place(spring);
@@ -223,7 +223,7 @@ void ElementPlaces::add_dampers(Places& places) const {
     }
     places.sets["dampers"].push_back(std::move(place));
   }
-  for (std::size_t type = 0; type < types.size(); ++type) {  // "dampers:C1,C2": all of a make together
+  for (std::size_t type = 0; type < types.size(); ++type) {  // "dampers:C1,C2": all dampers of one make
     Place all{"dampers:", Eigen::Vector3d::Zero(), {}, {}, {}, {}, {}};
     double members = 0.0;
     for (const Place& damper : places.sets["dampers"]) {
@@ -241,7 +241,8 @@ void ElementPlaces::add_dampers(Places& places) const {
 }
 
 void ElementPlaces::add_supports(Places& places) const {
-  // A spring may have the name of a support that is fixed in other directions: what is rigid there says nothing of the spring.
+  // A spring may have the name of a support that is fixed in other directions. The rigid directions then form a location of
+  // their own.
   std::set<std::string> of_springs;
   for (const fe::Spring& spring : model_.springs)
     if (!spring.is_damper() && !stands_for_rigid(spring)) of_springs.insert(spring.support_name());
@@ -250,7 +251,7 @@ void ElementPlaces::add_supports(Places& places) const {
     Eigen::Vector3d x_m;
     bool rigid;
     std::array<Sum, 2> stiffness;  // of translations, of rotations
-    fe::Coefficient ratio;         // of all its springs, which are one group or one spring
+    fe::Coefficient ratio;         // of all its springs, which form one group or are one spring
   };
   std::vector<Support> supports;
   std::map<std::string, std::size_t> position;
@@ -274,7 +275,8 @@ void ElementPlaces::add_supports(Places& places) const {
       if (sum.entries.empty()) continue;
       Place place{"support:" + support.name, support.x_m, free(sum), {}, {}, {}, {}};
       place.stiffness_law.ratio = support.ratio;
-      // A spring that stands for a rigid support must fall by orders before anything moves; a bearing may err both ways.
+      // The factor on a spring that replaces a rigid support must fall by orders before anything moves. A bearing may be softer
+      // or stiffer.
       place.attributes["f_low"] = support.rigid ? 1e-6 : 0.02;
       place.attributes["f_soft"] = support.rigid ? 2e-5 : 0.25;
       place.attributes["f_stiff"] = support.rigid ? 5e-4 : 4.0;

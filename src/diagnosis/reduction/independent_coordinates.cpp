@@ -14,8 +14,8 @@ using Eigen::VectorXd;
 
 namespace {
 
-/// Part of a coordinate's energy that it has beside those that stay, below which it depends on them. It is the part of a
-/// cause's flexibility that is lost with the coordinate. Rounding leaves 1e-14 where the largest part is taken first.
+/// Energy of a coordinate outside the kept ones, over its whole energy, below which it is dropped. The same part of a cause's
+/// flexibility is lost with it. Rounding leaves 1e-14 if the largest part is taken first.
 constexpr double kDependent = 1e-8;
 
 std::vector<Index> first_ones(Index n) {
@@ -28,13 +28,13 @@ std::vector<Index> first_ones(Index n) {
 
 std::vector<Index> independent_coordinates(const MatrixXd& stiffness, const MatrixXd& mass, Index first) {
   const Index n = stiffness.rows(), own = n - first;
-  // Motion with mass and hardly any stiffness is a low mode: it has energy here by its mass.
+  // A motion with mass and hardly any stiffness is a low mode. The mass gives it energy here.
   const double weight = mass.trace() > 0.0 ? stiffness.trace() / mass.trace() : 0.0;
   const MatrixXd energy = stiffness + weight * mass;
   const MatrixXd factor = linalg::cholesky_factor(energy.topLeftCorner(first, first));
   if (factor.rows() != first) return first_ones(n);
   const MatrixXd along = linalg::lower_solve(factor, energy.topRightCorner(first, own));
-  MatrixXd left = energy.bottomRightCorner(own, own) - along.transpose() * along;  // beside the coordinates that stay
+  MatrixXd left = energy.bottomRightCorner(own, own) - along.transpose() * along;  // outside the kept coordinates
   const VectorXd whole = energy.diagonal().tail(own);
   std::vector<Index> out = first_ones(first);
   for (Index step = 0; step < own; ++step) {

@@ -23,7 +23,7 @@ class Nodes {
  public:
   explicit Nodes(const Structure& structure) : structure_(structure), expansion_(structure.system->expansion) {}
 
-  /// How one direction of a node moves with the free dofs, (1 × n); no entry where it is held or there is no such node.
+  /// One direction of a node in terms of the free dofs, (1 × n); empty if it is held or if there is no such node.
   [[nodiscard]] RowVectorXd motion(const std::string& node, int direction) const {
     const fe::ParametricSystem& system = *structure_.system;
     if (structure_.model != nullptr) {
@@ -50,7 +50,7 @@ class Nodes {
   Eigen::SparseMatrix<double, Eigen::RowMajor> expansion_;
 };
 
-/// All free dofs moved by one metre along a direction.
+/// Displacements of all free dofs if the structure moves by one metre along a direction.
 VectorXd translation(const fe::ParametricSystem& system, const Eigen::Vector3d& direction) {
   VectorXd out = VectorXd::Zero(system.size());
   for (std::size_t i = 0; i < system.dofs.size(); ++i)
@@ -65,7 +65,7 @@ const std::vector<Place>& supports_of(const Places& places) {
 }
 
 std::string name_of_support(const Place& place) {
-  static const std::string rigid = " fixed";  // of what is rigid, where springs have the same name
+  static const std::string rigid = " fixed";  // appended to a support name for its rigid part, if springs have the same name
   std::string name = place.id.substr(place.id.find(':') + 1);
   if (name.ends_with(rigid)) name.resize(name.size() - rigid.size());
   return name;
@@ -182,7 +182,7 @@ LoadTests load_tests_of(const Structure& structure, const Places& places, const 
   const std::vector<Place>& supports = supports_of(places);
   const Index n = structure.system->size(), cases = static_cast<Index>(out.cases.size());
   out.force = MatrixXd::Zero(n, cases);
-  MatrixXd moves = MatrixXd::Zero(n, cases);  // of the ground, as the free dofs that are held to it
+  MatrixXd moves = MatrixXd::Zero(n, cases);  // movements of the ground, as displacements of the free dofs that are held to it
   for (const NodalLoad& load : loads) {
     const auto c = static_cast<Index>(std::find(out.cases.begin(), out.cases.end(), load.load) - out.cases.begin());
     const twindeck::Place at{loads_file, load.line, "node"};
@@ -199,7 +199,7 @@ LoadTests load_tests_of(const Structure& structure, const Places& places, const 
     }
     const auto holds = [&](const Place& support) { return (support.stiffness * VectorXd(motion.transpose())).norm() > 0.0; };
     if (std::none_of(supports.begin(), supports.end(), holds)) throw no_support_to_move(at, load.node, load.direction);
-    moves.col(c) += load.value / motion.squaredNorm() * motion.transpose();  // a node on a rigid arm moves with several dofs
+    moves.col(c) += load.value / motion.squaredNorm() * motion.transpose();  // a node on a rigid arm depends on several dofs
   }
   const VectorXd up = translation(*structure.system, Eigen::Vector3d::UnitZ());
   for (const Place& support : supports)

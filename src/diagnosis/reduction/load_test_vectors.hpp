@@ -6,7 +6,7 @@
 #include "core/error.hpp"
 #include "diagnosis/reduction/structure.hpp"
 
-/// Load tests of a finite element model, or one of matrices, over its free degrees of freedom.
+/// Load tests of a finite element model or a matrix model, over its free degrees of freedom.
 namespace twindeck::diagnosis {
 
 /// A force, a moment or a movement of the ground at a node, in a load case.
@@ -18,18 +18,18 @@ struct NodalLoad {
   long line = 0;        ///< of loads.csv
 };
 
-/// Where a channel of a load test sits.
+/// Position of a channel of a load test.
 struct Gauge {
-  std::string node;                                     ///< that rotates, "" where none is meant
+  std::string node;                                     ///< node whose rotation is measured, else ""
   Eigen::Vector3d direction = Eigen::Vector3d::Zero();  ///< axis of a rotation, direction of a force; zero where unknown
   std::string element;                                ///< of a strain gauge: name or number of a beam, bar or stay; "" for none
   double xi = 0.5;                                    ///< part of the element's length from its first end
   Eigen::Vector2d fibre_m = Eigen::Vector2d::Zero();  ///< local y and z of the gauge in the section
-  std::string support;                                ///< of a force; "" for none
+  std::string support;                                ///< support of a force gauge; "" for none
   long line = 0;                                      ///< of channels.csv
 };
 
-/// What is said of a load or a gauge that the model has no place for, wherever it is found; to be thrown.
+/// Errors for a load or a gauge that has no location in the model; the caller throws them.
 [[nodiscard]] InputError no_such_node(const twindeck::Place& at, const std::string& node);
 [[nodiscard]] InputError no_support_to_move(const twindeck::Place& at, const std::string& node, int direction);
 [[nodiscard]] InputError no_such_element(const twindeck::Place& at, const std::string& element);

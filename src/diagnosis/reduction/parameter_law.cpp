@@ -28,7 +28,7 @@ bool same_ratio(const fe::Coefficient& a, const fe::Coefficient& b) {
   };
   if (!std::equal(a.factors.begin(), a.factors.end(), b.factors.begin(), b.factors.end(), same_factor)) return false;
   const auto moves = [](const fe::Coefficient& c) { return c.stay && (c.stay->modulus || c.stay->density || c.stay->area); };
-  if (!moves(a) && !moves(b)) return true;  // sag counts where it moves
+  if (!moves(a) && !moves(b)) return true;  // sag matters only if parameters change it
   if (!moves(a) || !moves(b)) return false;
   const auto same = [&](const std::optional<fe::ParameterFactor>& p, const std::optional<fe::ParameterFactor>& q) {
     return p.has_value() == q.has_value() && (!p || same_factor(*p, *q));

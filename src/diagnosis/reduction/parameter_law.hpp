@@ -8,21 +8,21 @@
 
 namespace twindeck::diagnosis {
 
-/// Adds the parameters that a coefficient goes with to a set.
+/// Adds the parameters of a coefficient to a set.
 void add_parameters_of(const fe::Coefficient& coefficient, std::set<int>& parameters);
 
-/// How the matrix K of a place goes with the parameters of the model:
+/// Dependence of a location's matrix K on the parameters of the model:
 ///   K(theta) = ratio(theta) K + sum_s (ratio_s(theta) - held_s ratio(theta)) K_s,
-/// where K is the matrix as the model stands. Parts are what goes with another ratio than the rest: a place whose elements all
-/// go with one parameter, or with none, has no parts.
+/// where K is the matrix of the unchanged model. `parts` are the terms K_s whose ratio differs from that of the rest. A
+/// location whose elements all depend on one parameter, or on none, has no parts.
 template <typename Matrix>
 struct ParameterLaw {
   struct Part {
     fe::Coefficient ratio;
-    double held = 1.0;  ///< times of K_s that K holds: 0 of a correction term that starts at zero
+    double held = 1.0;  ///< factor of K_s within K: 0 for a correction term that starts at zero
     Matrix matrix;
   };
-  fe::Coefficient ratio;  ///< 1 as the model stands
+  fe::Coefficient ratio;  ///< 1 for the unchanged model
   std::vector<Part> parts;
 
   /// K(theta) as a sum: use(amount, matrix).
@@ -47,7 +47,7 @@ struct ParameterLaw {
   }
 };
 
-/// A coefficient over its value as the model stands. @pre that value is not zero @param theta  of the model as it stands
+/// A coefficient divided by its value in the unchanged model. @pre that value is not zero @param theta  of the unchanged model
 [[nodiscard]] fe::Coefficient ratio_of(const fe::Coefficient& coefficient, const Eigen::VectorXd& theta);
 /// Whether two ratios are the same function of the parameters.
 [[nodiscard]] bool same_ratio(const fe::Coefficient& a, const fe::Coefficient& b);

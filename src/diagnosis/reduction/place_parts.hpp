@@ -6,35 +6,36 @@
 #include "diagnosis/reduction/structure.hpp"
 #include "fe/assembly_elements.hpp"
 
-/// Private to src/diagnosis: the places of a finite element model.
+/// Private to src/diagnosis: the candidate locations of a finite element model.
 namespace twindeck::diagnosis {
 
 class ElementPlaces {
  public:
   explicit ElementPlaces(const Structure& structure);
 
-  /// Middle of each element that is no stay, in the order of `candidates`.
+  /// Middle of each element other than stays, in the order of `candidates`.
   [[nodiscard]] const std::vector<Eigen::Vector3d>& centroids() const { return centroids_; }
-  [[nodiscard]] std::vector<Eigen::Vector3d> node_positions() const;  ///< of nodes that an element reaches and that can move
+  [[nodiscard]] std::vector<Eigen::Vector3d> node_positions() const;  ///< of nodes of elements that can move
   [[nodiscard]] std::vector<int> measured_nodes() const;              ///< positions in `node_positions`
 
-  /// Set elements: those of one group that are nearest to one centre are a place, named after the one in their middle.
-  /// @param points  what elements are near to; the middles of `centres` where empty
+  /// Set elements: the elements of one group that are nearest to one centre form a location, named after the element in their
+  /// middle.
+  /// @param points  positions of the centres; empty: the middles of the elements `centres`
   void add_zones(const std::vector<int>& centres, Places& places, std::vector<Eigen::Vector3d> points = {}) const;
   void add_stays(Places& places) const;     ///< set stays
   void add_dampers(Places& places) const;   ///< sets dampers, damper_types
   void add_supports(Places& places) const;  ///< sets supports, foundations
-  /// Set groups: every group of elements, and of springs between nodes, that no parameter's place is the same as, and groups
-  /// that their names put together ("groups:a,b").
+  /// Set groups: every group of elements and of springs between nodes, unless a parameter has the same location. Groups that
+  /// belong together by name follow ("groups:a,b").
   void add_groups(Places& places) const;
-  /// Set support_moves: where a support on a line of beams may stand instead.
+  /// Set support_moves: other positions of a support on a line of beams.
   void add_support_moves(Places& places) const;
-  /// Dampers at other nodes: their unit forces there, and the nodes as attributes node_0 …
+  /// Dampers moved to other nodes: unit forces there, and the nodes as attributes node_0 …
   void add_moves(const std::vector<DamperMove>& moves, Places& places) const;
   void add_nodes(const std::vector<int>& chosen, Places& places) const;  ///< set nodes
-  /// Some elements as a place, with its middle; the id is left empty.
+  /// Some elements as one location, with their middle; the id is left empty.
   [[nodiscard]] Place part(const std::vector<int>& elements) const;
-  /// How the stiffness of some elements together goes with the parameters.
+  /// Dependence of the stiffness of some elements on the parameters.
   [[nodiscard]] ParameterLaw<CompactMatrix> stiffness_law(const std::vector<int>& elements) const {
     return laws_.stiffness(elements);
   }
@@ -43,7 +44,7 @@ class ElementPlaces {
  private:
   using Sum = ElementSum;
   struct Group;
-  [[nodiscard]] std::vector<std::pair<std::string, Group>> groups() const;  ///< in the order in which the model has them
+  [[nodiscard]] std::vector<std::pair<std::string, Group>> groups() const;  ///< in the order of the model
   [[nodiscard]] Symmetric free(const Sum& sum) const { return sum.free(expansion_); }
   [[nodiscard]] fe::ElementMatrix stay_stiffness(std::size_t element, double pull) const;
   [[nodiscard]] double pull_of(std::size_t element) const;

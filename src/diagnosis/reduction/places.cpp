@@ -41,8 +41,8 @@ Symmetric of_terms(const fe::ParametricSystem& system, const std::vector<fe::Ter
   return matrix;
 }
 
-/// How a sum of terms goes with the parameters, each term as its own coefficient does.
-/// @param amounts  (n_terms) in the sum as the model stands
+/// Dependence of a sum of terms on the parameters, from the coefficient of each term.
+/// @param amounts  (n_terms) values in the unchanged model
 ParameterLaw<CompactMatrix> law_of_terms(const fe::ParametricSystem& system, const std::vector<fe::Term>& terms,
                                          const Eigen::VectorXd& theta, const std::vector<double>& amounts) {
   ParameterLaw<CompactMatrix> law;
@@ -65,7 +65,7 @@ ParameterLaw<CompactMatrix> law_of_terms(const fe::ParametricSystem& system, con
   return law;
 }
 
-/// The same of the whole structure's stiffness or mass. A correction term that starts at zero is not in it yet.
+/// The same for the whole structure's stiffness or mass. A correction term that starts at zero is a part with `held` 0.
 ParameterLaw<CompactMatrix> law_of_all(const fe::ParametricSystem& system, const std::vector<fe::Term>& terms,
                                        const Eigen::VectorXd& theta) {
   std::vector<double> amounts;
@@ -80,9 +80,9 @@ ParameterLaw<CompactMatrix> law_of_all(const fe::ParametricSystem& system, const
   return law;
 }
 
-constexpr int kMostPlaces = 200;  // of a kind: the time of a search grows with them
+constexpr int kMostPlaces = 200;  // locations of a kind; the time of a search grows with their number
 
-/// Picks `count` of the points so that they lie far from each other, the given ones first (farthest-point selection), and more
+/// Picks `count` points far from each other, beginning with the given ones (farthest-point selection). Further ones follow
 /// until every point is within half a spacing of one.
 std::vector<int> spread(const std::vector<Eigen::Vector3d>& points, std::vector<int> chosen, int count, double spacing_m) {
   const auto n = static_cast<int>(points.size());
@@ -112,10 +112,10 @@ std::vector<Place> group_places(const Structure& structure) {
   for (std::size_t p = 0; p < system.parameters.size(); ++p) {
     const double value = structure.theta[static_cast<Index>(p)];
     Place place{"group:" + system.parameters[p].name, kNowhere, {}, {}, {}, {}, {}};
-    const double scale = value != 0.0 ? value : 1.0;  // a correction term that starts at zero is counted in its own unit
+    const double scale = value != 0.0 ? value : 1.0;  // a correction term that starts at zero counts in its own unit
     const fe::Parameter& parameter = system.parameters[p];
     if (value != 0.0) place.attributes["parameter"] = static_cast<double>(p);
-    // A material's modulus or density may be uncertain within its bounds, but it does not change from one state to another.
+    // Bounds of a change between states. A material's modulus or density is uncertain within its bounds, but hardly changes.
     const bool of_material = parameter.target == fe::Target::youngs_modulus || parameter.target == fe::Target::density;
     if (of_material && parameter.lower > 0.0 && parameter.upper > parameter.lower) {
       place.attributes["least_change"] = parameter.lower / parameter.upper;
@@ -135,7 +135,7 @@ std::vector<Place> group_places(const Structure& structure) {
   return places;
 }
 
-/// Nodes of a matrix model with the directions that they have; translations and rotations alike where they have no others.
+/// Nodes of a matrix model with their translations; with their rotations if they have no translations.
 std::vector<Place> matrix_nodes(const Structure& structure, const PlaceOptions& options) {
   const fe::ParametricSystem& system = *structure.system;
   std::vector<std::string> names;
@@ -164,7 +164,7 @@ std::vector<Place> matrix_nodes(const Structure& structure, const PlaceOptions& 
     for (std::size_t k = 0; k < dofs.size(); ++k) entries.emplace_back(dofs[k], static_cast<int>(k), 1.0);
     place.directions.resize(system.size(), static_cast<Index>(dofs.size()));
     place.directions.setFromTriplets(entries.begin(), entries.end());
-    Triplets masses;  // what sits on the node, for its scatter
+    Triplets masses;  // masses at the node, for its scatter
     for (const int dof : dofs)
       if (diagonal[dof] > 0.0) masses.emplace_back(dof, dof, diagonal[dof]);
     Symmetric mass(system.size(), system.size());
@@ -175,7 +175,6 @@ std::vector<Place> matrix_nodes(const Structure& structure, const PlaceOptions& 
   return places;
 }
 
-/// For each wanted position that of the nearest point.
 std::vector<int> nearest_of(const std::vector<Eigen::Vector3d>& points, const std::vector<Eigen::Vector3d>& wanted) {
   std::vector<int> found;
   for (const Eigen::Vector3d& x : wanted) found.push_back(nearest(points, x));

@@ -10,9 +10,9 @@
 
 namespace twindeck::diagnosis {
 
-/// The vectors V that a structure is projected to: c common ones first, then groups of vectors that stand for causes at one
-/// location each. A vector is as long as the structure has degrees of freedom. Those of the last groups that were used are
-/// kept, others are computed again, to the same bits, when they are asked for. Safe for several threads.
+/// Basis V of the reduced structure: c common vectors, then one group of vectors for the causes at each location. A vector has
+/// an entry for each degree of freedom of the structure. The vectors of recently used groups are kept. Others are computed
+/// again when needed, with the same bits. Safe for several threads.
 class ReducedBasis {
  public:
   struct Group {
@@ -29,15 +29,15 @@ class ReducedBasis {
   [[nodiscard]] Eigen::Index common() const { return common_rows_.rows(); }
   [[nodiscard]] Eigen::Index size() const { return std::ssize(group_of_); }
   [[nodiscard]] const Eigen::MatrixXd& common_vectors() const { return common_vectors_; }  ///< (n × c)
-  /// Their transpose (c × n): what is read of a degree of freedom lies together.
+  /// Transpose of the common vectors (c × n), so that the values of one degree of freedom are adjacent.
   [[nodiscard]] const Eigen::MatrixXd& common_rows() const { return common_rows_; }
   [[nodiscard]] const std::vector<Group>& groups() const { return groups_; }
-  /// Position in `groups` of a column behind the common ones, and the column in its group.
+  /// Group of a column after the common ones, and the position within the group.
   [[nodiscard]] std::pair<int, Eigen::Index> place_of(int column) const;
   /// Appends blocks, a group each; empty ones are left out. @return the columns of each block
   std::vector<std::vector<int>> append(const std::vector<Block>& blocks);
   [[nodiscard]] std::shared_ptr<const Eigen::MatrixXd> vectors(int group) const;  ///< (n × count)
-  /// The vectors behind the common ones among some columns (n × n_own).
+  /// The vectors after the common ones, among some columns (n × n_own).
   [[nodiscard]] Eigen::MatrixXd own(const std::vector<int>& columns) const;
   /// V_c x of some columns (n × m). @param own  of these columns @param x (n_columns × m)
   [[nodiscard]] Eigen::MatrixXd motion(const Eigen::MatrixXd& own, const Eigen::MatrixXd& x) const;
@@ -52,12 +52,12 @@ class ReducedBasis {
   std::vector<int> group_of_;                            ///< (r) position in `groups`, -1 for a common vector
   std::vector<std::function<Eigen::MatrixXd()>> again_;  ///< by group
   mutable std::mutex mutex_;
-  mutable std::vector<std::shared_ptr<const Eigen::MatrixXd>> kept_;  ///< by group; null where they have gone
-  mutable std::deque<int> order_;                                     ///< of the groups that are kept, the oldest first
+  mutable std::vector<std::shared_ptr<const Eigen::MatrixXd>> kept_;  ///< by group; null if not kept
+  mutable std::deque<int> order_;                                     ///< groups that are kept, the oldest first
 };
 
 /// Unit forces of a location in reduced coordinates, V' b. The values for the common vectors and for the location's own are
-/// kept; those for vectors of other locations are computed where a fit combines causes at both.
+/// kept; those for vectors of other locations are computed when a fit combines causes at both locations.
 class ReducedDirections {
  public:
   ReducedDirections() = default;
@@ -66,12 +66,12 @@ class ReducedDirections {
   ReducedDirections(Eigen::SparseMatrix<double> b, std::shared_ptr<const ReducedBasis> basis, bool for_all);
 
   [[nodiscard]] Eigen::Index cols() const { return b_.cols(); }                           ///< k
-  [[nodiscard]] bool is_zero(Eigen::Index d) const { return b_.col(d).nonZeros() == 0; }  ///< the location cannot move so
+  [[nodiscard]] bool is_zero(Eigen::Index d) const { return b_.col(d).nonZeros() == 0; }  ///< it cannot move so
   /// Direction `d` in some coordinates, the common ones first (n_columns).
   [[nodiscard]] Eigen::VectorXd part(Eigen::Index d, const std::vector<int>& columns) const;
   /// Keeps the values for the location's own vectors. @param group  of the basis
   void keep(int group);
-  /// Keeps the values for vectors that the basis has got since, where `for_all`.
+  /// Computes the values for vectors added to the basis meanwhile, if `for_all`.
   void follow_basis();
 
  private:
@@ -81,8 +81,8 @@ class ReducedDirections {
   std::shared_ptr<const ReducedBasis> basis_;
   Eigen::MatrixXd common_;  ///< (c × k)
   bool for_all_ = false;
-  int first_ = 0;                      ///< group of the first of `kept_`
-  std::vector<Eigen::MatrixXd> kept_;  ///< (count × k) of one group after the other
+  int first_ = 0;                      ///< group of the first entry of `kept_`
+  std::vector<Eigen::MatrixXd> kept_;  ///< (count × k) of one group after another
 };
 
 }  // namespace twindeck::diagnosis

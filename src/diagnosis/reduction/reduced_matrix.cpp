@@ -14,7 +14,7 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-constexpr Index kAtOnce = 256;  ///< columns of V that are projected together: their images are n × 256
+constexpr Index kAtOnce = 256;  ///< columns of V that are projected together; their images take n × 256 numbers
 
 }  // namespace
 
@@ -92,7 +92,7 @@ void ReducedMatrix::add_own(double amount, const std::vector<int>& columns, Eige
   const Index c = basis_->common(), n = std::ssize(columns);
   TWINDECK_ASSERT(n >= c && (c == 0 || columns[static_cast<std::size_t>(c) - 1] == c - 1));
   if (n == c) return;
-  if (local_) {  // few degrees of freedom, so that nothing is kept
+  if (local_) {  // the matrix touches few degrees of freedom, so that nothing is kept
     MatrixXd here(std::ssize(s_.dofs()), n - c), values;
     int known = -1;
     for (Index k = c; k < n; ++k) {

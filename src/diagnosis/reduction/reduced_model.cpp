@@ -33,17 +33,17 @@ Symmetric symmetric_of(const fe::ParametricSystem& system, const fe::Term& term)
   return matrix;
 }
 
-/// Sets whose matrices are scattered, so that every state needs them in the coordinates of its causes.
+/// Whether a set has element scatter, so that every state needs its matrices in the coordinates of its causes.
 bool is_scattered(const std::string& set) { return set == "zones" || set == "nodes" || set == "stays"; }
 
-/// What goes with parameters otherwise than the rest of a place is used where the place is, never in every state.
+/// Reduces a law. Its parts are needed only where the location itself is used, never in every state.
 ParameterLaw<ReducedMatrix> reduced(const ParameterLaw<CompactMatrix>& law, const std::shared_ptr<const ReducedBasis>& basis) {
   ParameterLaw<ReducedMatrix> out{law.ratio, {}};
   for (const auto& part : law.parts) out.parts.push_back({part.ratio, part.held, ReducedMatrix(part.matrix, basis, false)});
   return out;
 }
 
-/// A place in the coordinates of a basis, but for its columns.
+/// A location in the coordinates of a basis, without its columns.
 ReducedPlace reduced(const Place& place, const std::string& set, const std::shared_ptr<const ReducedBasis>& basis,
                      const StaticVectors& statics, double total_mass_kg) {
   ReducedPlace out{place.id, place.x_m, {}, {}, {}, {}, place.attributes};
@@ -58,7 +58,7 @@ ReducedPlace reduced(const Place& place, const std::string& set, const std::shar
   return out;
 }
 
-/// Modes as the structure stands; all that it has, where its masses are fewer than asked for.
+/// Modes of the unchanged structure; all modes if it has fewer than asked for.
 dynamics::EigenModes modes_of(const Structure& structure, const ReductionOptions& options) {
   dynamics::ModalSolver solver(*structure.system);
   dynamics::EigenModes modes =
@@ -69,7 +69,7 @@ dynamics::EigenModes modes_of(const Structure& structure, const ReductionOptions
   return modes;
 }
 
-constexpr int kHeld = 1020;  ///< vectors of places that are held together while everything is projected to them
+constexpr int kHeld = 1020;  ///< vectors of locations that are held at once while everything is projected to them
 
 MatrixXd beside(const std::vector<ReducedBasis::Block>& blocks) {
   Index columns = 0, at = 0, n = 0;
@@ -85,7 +85,7 @@ MatrixXd beside(const std::vector<ReducedBasis::Block>& blocks) {
   return out;
 }
 
-/// Rows of load tests in the coordinates of further vectors below those that there are.
+/// Appends the rows of load tests in further coordinates to the present ones.
 void append_coordinates(LoadTests& tests, const LoadTests& further) {
   const auto below = [](auto& to, const auto& from) {
     to.conservativeResize(to.rows() + from.rows(), Eigen::NoChange);
@@ -163,8 +163,8 @@ ReducedModel::ReducedModel(const Structure& structure, const Places& places, con
   for (const auto& [set, list] : places.sets)
     for (std::size_t i = 0; i < list.size(); ++i) {
       const bool served =
-          set == "dampers" || set == "zones" || (set == "global" && list[i].directions.size() == 0);  // by the common vectors
-      // A support may go to any of its stations, each with a static response of its own.
+          set == "dampers" || set == "zones" || (set == "global" && list[i].directions.size() == 0);  // no own vectors
+      // A support may move to any of its stations; each has its own static response.
       const int wanted = set == "support_moves" ? options.vectors_per_move : options.vectors_per_place;
       owners.push_back({&list[i], &sets.at(set)[i], served ? 0 : wanted});
     }
@@ -172,7 +172,7 @@ ReducedModel::ReducedModel(const Structure& structure, const Places& places, con
 }
 
 void ReducedModel::project(const fe::ParametricSystem& system, const Places& places) {
-  // The largest first: whole groups take as long as hundreds of places.
+  // The largest jobs first, because a whole group takes as long as hundreds of locations.
   struct Job {
     Index size;
     std::function<void()> run;
@@ -212,7 +212,7 @@ void ReducedModel::add_vectors(const Structure& structure, const std::vector<Own
         place.mass.follow_basis();
         place.directions.follow_basis();
       });
-  const bool many = owners.size() > ReducedBasis::kKept;  // then they are computed again and again
+  const bool many = owners.size() > ReducedBasis::kKept;  // too many to be kept
   for (std::size_t begin = 0, end = 0; begin < owners.size(); begin = end) {
     int columns = 0;
     while (end < owners.size() && (end == begin || columns + owners[end].count <= kHeld)) columns += owners[end++].count;
@@ -233,7 +233,7 @@ void ReducedModel::add_vectors(const Structure& structure, const std::vector<Own
     });
     const std::vector<std::vector<int>> own = kept_->basis->append(blocks);
 
-    // 2. What there is in their coordinates.
+    // 2. Everything in the new coordinates.
     parallel_for(follow.size(), [&](std::size_t i) { follow[i](); });
     for (std::size_t i = 0; i < blocks.size(); ++i) {
       ReducedPlace& place = *owners[begin + i].reduced;
@@ -247,7 +247,7 @@ void ReducedModel::add_vectors(const Structure& structure, const std::vector<Own
       place.directions.keep(group);
     }
     const MatrixXd v = beside(blocks);
-    if (v.cols() == 0) continue;  // the common ones hold what these places do
+    if (v.cols() == 0) continue;  // no own vectors for these locations
     sensors.conservativeResize(Eigen::NoChange, size() + v.cols());
     sensors.rightCols(v.cols()) = structure.sensors(v);
     if (!load_tests.empty()) append_coordinates(load_tests, projected(structure.load_tests, v));

@@ -18,14 +18,14 @@ namespace twindeck::diagnosis {
 struct ReducedPlace {
   std::string id;
   Eigen::Vector3d x_m;
-  std::vector<int> columns;       ///< basis vectors for causes at this location, beside the common ones
+  std::vector<int> columns;       ///< basis vectors for causes at this location, after the common ones
   ReducedMatrix stiffness, mass;  ///< (r × r), size 0 if the location has none
   ReducedDirections directions;   ///< unit forces
   std::map<std::string, double> attributes;
-  ParameterLaw<ReducedMatrix> stiffness_law = {}, mass_law = {};  ///< how its matrices go with the parameters
+  ParameterLaw<ReducedMatrix> stiffness_law = {}, mass_law = {};  ///< dependence of its matrices on the parameters
 };
 
-/// Where a support that may move stands on its line: `part` of the way from station `first` to the next one.
+/// Position of a support on its line: the part `part` of the way from station `first` to the next one.
 struct OnLine {
   Eigen::Index first = 0;
   double part = 0.0;
@@ -59,7 +59,7 @@ class ReducedModel {
   double total_mass_kg = 0.0;
   Eigen::VectorXd frequency_Hz;      ///< of the modes of the unchanged full model
   Eigen::MatrixXd mode_coordinates;  ///< (common × n_modes) the same modes in the common vectors, which hold them
-  LoadTests load_tests;              ///< in the basis, which gives their displacements exactly at `theta`
+  LoadTests load_tests;              ///< in the basis; at `theta` the displacements are exact
 
   [[nodiscard]] Eigen::Index size() const { return sensors.cols(); }
   /// The location called `id` in any set; null if there is none.
@@ -68,11 +68,11 @@ class ReducedModel {
  private:
   /// Terms and places in the coordinates of the common vectors.
   void project(const fe::ParametricSystem& system, const Places& places);
-  /// Vectors of places, as many as can be held at once after each other, and everything in their coordinates.
+  /// Adds the vectors of locations, in batches that fit into memory, and projects everything to them.
   struct Owner;
   void add_vectors(const Structure& structure, const std::vector<Owner>& owners);
 
-  struct Kept;                  ///< the basis, and what vectors of places come from
+  struct Kept;                  ///< the basis, and the source of the vectors of locations
   std::shared_ptr<Kept> kept_;  ///< copies share it
 };
 

@@ -19,7 +19,6 @@ using Eigen::MatrixXd;
 using Eigen::VectorXcd;
 using Eigen::VectorXd;
 
-/// Modes with omega² below `highest`.
 Index count_below(const UndampedModes& modes, double highest) {
   Index count = 0;
   while (count < modes.size() && modes.eigenvalue(count) < highest) ++count;
@@ -30,11 +29,11 @@ MatrixXd mass_normalised(const UndampedModes& modes, Index count) {
   return modes.shapes.leftCols(count) * modes.mu.head(count).cwiseSqrt().cwiseInverse().asDiagonal();
 }
 
-/// Eigenvalues and shapes of the linear part in modal coordinates (dashpots, Maxwell; friction as given spring and dashpot).
+/// Eigenvalues and shapes of the linear part in modal coordinates (dashpots, Maxwell; friction as a given spring and dashpot).
 StateModes state_space(const StructureState& state, const UndampedModes& undamped, double highest,
                        const std::vector<Complex>& friction, double omega) {
   const Index m = count_below(undamped, highest);
-  if (m == 0) return {};  // no mode lies so low: the eigensolver takes no empty matrix
+  if (m == 0) return {};  // no mode below the limit; the eigensolver takes no empty matrix
   const MatrixXd shapes = mass_normalised(undamped, m);
   Index extra = 0;
   for (const Attachment& a : state.attachments)
@@ -78,15 +77,16 @@ StateModes state_space(const StructureState& state, const UndampedModes& undampe
   return out;
 }
 
-/// [-] parts of a slider's change of stiffness that a step takes, one attempt after another: strokes near the slip swing to and
-/// fro with the whole of it.
+/// [-] Part of a slider's change of stiffness that one step takes, in successive attempts. With full steps, strokes near the
+/// slip oscillate.
 constexpr double kRelaxed[] = {1.0, 0.25, 0.06};
-/// [-] of a root: the last step of its search, and the largest last step of what is still a mode. Strokes near the slip may
-/// swing for ever; a thousandth is below what is measured. Two roots of one shape that are nearer to each other are one.
+/// [-] Relative last step of a root: the aim of the search, and the largest for a valid mode. Strokes near the slip may
+/// oscillate without end; a thousandth is below the accuracy of measurements. Two roots of one shape count as one if they are
+/// nearer than this.
 constexpr double kRefined = 1e-9, kStillAMode = 1e-3;
-constexpr double kRefinements = 40.0;  ///< steps of an attempt, for each part that it takes
+constexpr double kRefinements = 40.0;  ///< steps of an attempt with full steps; more in proportion for smaller steps
 
-/// Inverse iteration from s and phi that takes the part `relax` of each change. @return [-] last step of s
+/// Inverse iteration from s and phi, with the part `relax` of each change. @return [-] last relative step of s
 double attempt(const StructureState& state, Complex& s, VectorXcd& phi, double relax) {
   MatrixXcd t, now;
   VectorXcd t_prime_phi;
@@ -107,8 +107,8 @@ double attempt(const StructureState& state, Complex& s, VectorXcd& phi, double r
   return last;
 }
 
-/// The first attempt that ends at a mode. Further ones take up to seventeen times as many steps, for what is below the data.
-/// @return whether one does
+/// Tries the parts of kRelaxed until an attempt ends at a mode. Later attempts take up to seventeen times as many steps.
+/// @return whether an attempt succeeded
 bool refine(const StructureState& state, Complex& s, VectorXcd& phi) {
   const Complex start = s;
   const VectorXcd start_shape = phi;
@@ -129,7 +129,7 @@ bool same_mode(const std::pair<Complex, VectorXcd>& other, Complex s, const Vect
          std::abs(other.second.dot(phi)) > 0.999 * other.second.norm() * phi.norm();
 }
 
-/// In ascending frequency, scaled to phi' T'(s) phi = 2 s.
+/// Sorts by frequency and scales to phi' T'(s) phi = 2 s.
 StateModes normalised(const StructureState& state, std::vector<std::pair<Complex, VectorXcd>> found) {
   std::sort(found.begin(), found.end(), [](const auto& a, const auto& b) { return std::abs(a.first) < std::abs(b.first); });
   StateModes modes;
@@ -146,10 +146,10 @@ StateModes normalised(const StructureState& state, std::vector<std::pair<Complex
   return modes;
 }
 
-/// All roots at once from the state space of the undamped modes, each then refined: slow, for where the roots can't be
+/// Finds all roots at once from the state space of the undamped modes, then refines each. Slow; used if the roots cannot be
 /// followed.
 StateModes solve_by_state_space(const StructureState& state, double highest_Hz, const UndampedModes& undamped) {
-  // Friction elements stick in the undamped start, as far as the lowest mode lets them.
+  // Friction elements stick at first; then they slide as far as the lowest mode makes them.
   const bool sliders = std::any_of(state.attachments.begin(), state.attachments.end(),
                                    [](const Attachment& a) { return a.kind == Attachment::Kind::jenkins; });
   const double highest = 6.0 * std::pow(2.0 * std::numbers::pi * highest_Hz, 2);
@@ -180,19 +180,20 @@ StateModes solve_by_state_space(const StructureState& state, double highest_Hz, 
   return normalised(state, found);
 }
 
-/// [-] of the root, the last step of its search. With sliders a step shows only the part that it takes of what is left.
+/// [-] Relative last step at which the search for a root ends. With sliders, a step is only the part `relax` of the remaining
+/// change.
 constexpr double kSettled = 1e-10, kSettledStrokes = 1e-8;
 
-/// [-] of the dashpot that resists as much at the lowest frequency as the structure along it. The search starts weaker ones
-/// from this: their own rate is so large that the eigensolver would lose the frequencies beside it in rounding.
+/// [-] Least dashpot in the start values, over the dashpot that resists at the lowest frequency as much as the structure does.
+/// With weaker ones, their large rate constants would hide the frequencies in rounding.
 constexpr double kWeakestStart = 1e-4;
-/// [-] of the highest frequency: a mode below this is the structure's motion as a rigid body.
+/// [-] of the highest frequency; lower modes are motions as a rigid body.
 constexpr double kRigidMotion = 1e-4;
 
-/// Damped modes in the coordinates of the undamped ones, phi = Psi z: there T(s) = diag(1 + s² mu) + B D(s) B' for the p
-/// directions B of few attachments, so that a step of residual inverse iteration costs n p² operations where a factorisation of
-/// T costs n³. No mode is left out: the roots are those of T. Reference: Neumaier (1985), SIAM Journal on Numerical Analysis
-/// 22, 914-923.
+/// Damped modes in the coordinates of the undamped ones, phi = Psi z: T(s) = diag(1 + s² mu) + B D(s) B' for the p directions B
+/// of few attachments. A step of residual inverse iteration costs n p² operations, a factorisation of T would cost n³. All
+/// modes are used, so that the roots are those of T. Reference: Neumaier (1985), SIAM Journal on Numerical Analysis 22,
+/// 914-923.
 class ModalRoots {
  public:
   ModalRoots(const StructureState& state, const UndampedModes& modes) : state_(state), modes_(modes) {
@@ -207,9 +208,10 @@ class ModalRoots {
       amplitude_ = modes_.shapes.transpose() * state.amplitude_row.transpose();
   }
 
-  /// From the roots of a state with the same attachments and other matrices. False where one is lost, or two end in one.
+  /// Follows the roots of a state with the same attachments and other matrices. @return false if a root is lost, or if two end
+  /// in one
   bool follow(const StateModes& neighbour, StateModes& out) const {
-    // K-orthonormal modes: z = Psi' (K + shift M) phi. Real parts, then imaginary ones.
+    // K-orthonormal modes: z = Psi' (K + shift M) phi. Real parts first, then imaginary ones.
     const Index count = neighbour.s.size(), rows = neighbour.shapes.rows();
     MatrixXd phi = MatrixXd::Zero(modes_.size(), 2 * count);
     phi.topLeftCorner(rows, count) = neighbour.shapes.real();
@@ -228,10 +230,11 @@ class ModalRoots {
     return true;
   }
 
-  /// From the eigenvalues of a smaller linear problem: modes below `keep`, the others by their static part.
+  /// Starts from the eigenvalues of a smaller linear problem: low modes, and the static part of all others. @return false if a
+  /// root is lost
   bool solve(double highest_Hz, StateModes& out) const {
     VectorXcd forces = VectorXcd::Zero(b_.cols());
-    if (sliders_) {  // held by friction first; then as the lowest mode makes them slide
+    if (sliders_) {  // friction holds at first; then it slides as the lowest mode makes it
       for (Index k = 0; k < b_.cols(); ++k) forces[k] = state_.attachments[static_cast<std::size_t>(k)].stiffness;
       Found first;
       for (const auto& [s, none] : starts(forces, 2.0 * std::numbers::pi * highest_Hz, false)) {
@@ -244,8 +247,8 @@ class ModalRoots {
         break;
       }
     }
-    // Where two modes have nearly one frequency, as stays that are alike, their values alone start both at one root: then with
-    // shapes, which tell them apart. Strokes of sliders go by the shape, so that those start from the values.
+    // If two modes have nearly one frequency, as equal stays have, starts from the values alone may end at one root. The second
+    // pass starts from shapes too. Strokes of sliders depend on the shape, so these start from the values only.
     for (const bool with_shapes : {false, true}) {
       if (with_shapes && sliders_) break;
       Found found;
@@ -260,13 +263,13 @@ class ModalRoots {
   }
 
  private:
-  using Found = std::vector<std::pair<Complex, VectorXcd>>;  // roots and shapes in the modes, scaled as `StateModes` are
+  using Found = std::vector<std::pair<Complex, VectorXcd>>;  // roots, and shapes in the modes, scaled like `StateModes`
 
-  /// Refines a root and adds it. Roots that no longer vibrate are left out; false where one does not converge, or comes twice:
-  /// two modes may have one frequency, and it takes the state space to part them. Not where dampers slide: there each mode has
-  /// stiffnesses of its own, two starts of the lowest one's may end in one, and the state space's do so too.
-  /// @param z       shape in the modes, empty where it is not known
-  /// @param forces  of sliders [N/m], where the shape is not known: those that s is an eigenvalue with
+  /// Refines a root and adds it; roots that no longer vibrate are left out. @return false if a root does not converge, or
+  /// appears twice: two modes may have one frequency, and then the state space must separate them. With sliding dampers each
+  /// mode has its own stiffnesses. Then two starts may end in the lowest mode, also with the state space, and this is accepted.
+  /// @param z       shape in the modes, empty if unknown
+  /// @param forces  of sliders [N/m], if the shape is unknown: those for which s is an eigenvalue
   bool add(Complex s, VectorXcd z, const VectorXcd& forces, Found& found, bool must_oscillate) const {
     const Complex start = s;
     bool converged = root(s, z, forces, kRelaxed[0]);
@@ -301,18 +304,18 @@ class ModalRoots {
     out.shapes.imag() = shapes.rightCols(count);
   }
 
-  /// Peak amplitude of an element that moves by `here` in a mode of shape z; 0 where no amplitude is known.
+  /// Peak amplitude of an element that moves by `here` in a mode of shape z; 0 if no amplitude is known.
   [[nodiscard]] double stroke(Complex here, const VectorXcd& z) const {
     return amplitude_.size() > 0 ? peak(state_, here, along(amplitude_, z)) : 0.0;
   }
 
   /// Eigenvalues that vibrate, |s| below `highest`, with sliders as springs and dashpots `forces` [N/m]. In the low modes y:
-  /// y'' = -Lambda y - B f; each attachment follows the residual flexibility R of the other modes and its own spring:
-  /// f = (R + 1/k)^-1 (B'y - z) with z the stroke of its dashpot, c dz/dt = f.
-  /// @param with_shapes  gives the shape in the low modes too; else it is empty
+  /// y'' = -Lambda y - B f; each attachment follows the residual flexibility R of the other modes and its own spring: f = (R +
+  /// 1/k)^-1 (B'y - z) with z the stroke of its dashpot, c dz/dt = f.
+  /// @param with_shapes  also returns the shapes in the low modes; otherwise they are empty
   [[nodiscard]] Found starts(const VectorXcd& forces, double highest, bool with_shapes) const {
     const Index p = b_.cols(), m = count_below(modes_, 1.5 * highest * highest);
-    if (m == 0) return {};  // no mode lies so low: the eigensolver takes no empty matrix
+    if (m == 0) return {};  // no mode below the limit; the eigensolver takes no empty matrix
     const MatrixXd low = modes_.mu.head(m).cwiseSqrt().cwiseInverse().asDiagonal() * bm_.topRows(m);
     MatrixXd flexibility = bm_.bottomRows(bm_.rows() - m).transpose() * bm_.bottomRows(bm_.rows() - m);
     VectorXd rate = VectorXd::Zero(p), back = VectorXd::Zero(p);  // dz/dt = rate f - back z
@@ -324,12 +327,12 @@ class ModalRoots {
       flexibility(k, k) += 1e-6 * bm_.col(k).squaredNorm();
       if (a.kind == Attachment::Kind::jenkins) {
         const double spring = forces[k].real(), dashpot = forces[k].imag();
-        if (dashpot > 1e-3 * spring) {  // z has both beside each other
+        if (dashpot > 1e-3 * spring) {  // z is the stroke of spring and dashpot in parallel
           rate[k] = highest / (3.0 * dashpot);
           back[k] = rate[k] * spring;
         } else {
           flexibility(k, k) += 1.0 / spring;
-          back[k] = highest;  // stays where it is
+          back[k] = highest;  // z decays to zero: a spring alone
         }
       } else {
         if (a.kind == Attachment::Kind::maxwell) flexibility(k, k) += 1.0 / a.stiffness;
@@ -360,7 +363,7 @@ class ModalRoots {
       const Complex s = eigen.values[i];
       if (!(s.imag() > 1e-6) || !oscillates(s) || std::abs(s) > highest) continue;
       VectorXcd z;
-      if (with_shapes) {  // from mass-normalised modes to those of unit stiffness
+      if (with_shapes) {  // converts from mass-normalised modes to modes of unit stiffness
         z = VectorXcd::Zero(modes_.size());
         z.head(m) = eigen.vectors.col(i).head(m).cwiseQuotient(modes_.mu.head(m).cwiseSqrt().cast<Complex>());
         z.normalize();
@@ -378,7 +381,7 @@ class ModalRoots {
     VectorXcd receptance(n);
     for (Index i = 0; i < n; ++i) {
       const Complex own = 1.0 + square * modes_.mu[i];
-      const double square_of_own = own.real() * own.real() + own.imag() * own.imag();  // std::norm takes a root first
+      const double square_of_own = own.real() * own.real() + own.imag() * own.imag();  // faster than std::norm
       receptance[i] = square_of_own > 1e-26 ? std::conj(own) / square_of_own : Complex(1e13);
     }
     MatrixXcd h(p, p);
@@ -398,10 +401,9 @@ class ModalRoots {
     return y - receptance.cwiseProduct(back);
   }
 
-  /// Residual inverse iteration from s, and from z where it is given, until s stands still.
-  /// @param relax  part of the way that sliders' forces go in a step: strokes and forces may answer each other in turn, and
-  /// where
-  ///               a damper begins to slide they do so for ever, by some 1e-5
+  /// Residual inverse iteration from s, and from z if given, until s is constant.
+  /// @param relax  part of the change of the sliders' forces in a step. Strokes and forces may oscillate; if a damper begins to
+  ///         slide they do so without end, by about 1e-5
   bool root(Complex& s, VectorXcd& z, const VectorXcd& held, double relax) const {
     const Index p = b_.cols();
     VectorXcd d(p), d_prime(p), q = VectorXcd::Zero(p);
@@ -438,7 +440,7 @@ class ModalRoots {
       if (!std::isfinite(std::abs(step))) return false;
       if (std::abs(step) > 0.5 * std::abs(s)) {
         if (!sliders_) return false;
-        step *= 0.1 * std::abs(s / step);  // strokes of the shape that the start has: they change with it
+        step *= 0.1 * std::abs(s / step);  // strokes belong to the start's shape and change with it
       }
       s -= step;
       const bool small = std::abs(step) < (sliders_ ? kSettledStrokes * relax : kSettled) * std::abs(s);
@@ -462,7 +464,7 @@ class ModalRoots {
   const StructureState& state_;
   const UndampedModes& modes_;
   MatrixXd b_, bm_;     // directions (n × p) over the coordinates and in the modes
-  VectorXd amplitude_;  // motion of the amplitude's channel (n) in the modes; empty where nothing slides or it is not known
+  VectorXd amplitude_;  // motion of the amplitude's channel (n) in the modes; empty if nothing slides or no amplitude is known
   bool sliders_ = false;
 };
 

@@ -18,7 +18,7 @@ namespace twindeck::diagnosis {
 using Eigen::Index;
 using Eigen::MatrixXd;
 
-/// Energy, of the largest of a block's, below which a direction of it is rounding: energies are squares.
+/// Energy of a direction over the largest of its block, below which it is rounding; energies are squares.
 constexpr double kRounding = 1e-13;
 
 /// The common basis, orthonormal in K.
@@ -26,9 +26,8 @@ class CommonBasis {
  public:
   CommonBasis(const Symmetric& stiffness, Index n) : stiffness_(stiffness), vectors_(n, 0), images_(n, 0) {}
 
-  /// The columns of `block`, orthonormalised against the basis and against each other; what is nearly in them already is
-  /// dropped.
-  /// @param turn  columns that the block is made with, if asked for: become those of the result
+  /// The columns of `block`, orthonormalised against the basis and against each other; columns that depend on them are dropped.
+  /// @param turn  in: factors that made the block; out: factors that make the result. May be null
   [[nodiscard]] MatrixXd orthonormal(const MatrixXd& block, MatrixXd* turn = nullptr) const {
     constexpr double tolerance = 1e-6;
     const Eigen::VectorXd before = block.cwiseProduct(stiffness_ * block).colwise().sum().cwiseMax(0.0).cwiseSqrt();
@@ -63,12 +62,12 @@ class CommonBasis {
     vectors_.rightCols(further.cols()) = further;
     images_.rightCols(further.cols()) = stiffness_ * further;
   }
-  /// Vectors and what loads hold them: K vectors = loads.
+  /// Vectors and their loads: K vectors = loads.
   struct Held {
     MatrixXd vectors, loads;
-    MatrixXd turn = {};  ///< that made them of the columns of a block, where they are fewer
+    MatrixXd turn = {};  ///< factors that made them from the columns of a block, if there are fewer
   };
-  /// The strongest directions of a block in K beyond the basis, at most `count`, and none of less energy than `least`.
+  /// The strongest directions of a block beyond the basis, by energy in K: at most `count`, and none below `least`.
   [[nodiscard]] Held strongest(Held block, int count, double least = 0.0) const {
     block.vectors = beyond(std::move(block.vectors));
     block.loads = stiffness_ * block.vectors;
@@ -83,7 +82,8 @@ class CommonBasis {
   [[nodiscard]] const MatrixXd& vectors() const { return vectors_; }
 
  private:
-  /// Once where no column loses much by it, else twice (Daniel et al. 1976): each time reads the whole basis twice.
+  /// Removes the basis from a block. A second pass is made only if some column loses much of its length (Daniel et al. 1976),
+  /// because each pass reads the whole basis twice.
   [[nodiscard]] MatrixXd beyond(MatrixXd block) const {
     const Eigen::VectorXd before = block.colwise().norm();
     for (int pass = 0; pass < 2; ++pass) {
@@ -99,8 +99,8 @@ class CommonBasis {
 
 namespace {
 
-constexpr Eigen::Index kGathered = 960;  // columns of one eigenproblem: its time grows with their cube
-constexpr std::size_t kChunk = 64;       // changes whose columns are held before they are gathered
+constexpr Eigen::Index kGathered = 960;  // most columns of one eigenproblem; its time grows with the cube
+constexpr std::size_t kChunk = 64;       // changes whose columns are computed before they are gathered
 
 CommonBasis::Held side_by_side(std::span<const CommonBasis::Held> blocks) {
   Index columns = 0, at = 0;
@@ -115,13 +115,13 @@ CommonBasis::Held side_by_side(std::span<const CommonBasis::Held> blocks) {
   return out;
 }
 
-/// What changes of K make of given vectors, K^-1 (change): of each change the strongest few beyond the basis, of these the
-/// strongest of all.
+/// Responses K^-1 (change of K times given vectors). The strongest few beyond the basis of each change are kept, and of all
+/// these the strongest.
 /// @param scale  of each vector
 MatrixXd strongest_of(const CommonBasis& basis, const linalg::Cholesky& factor,
                       const std::vector<std::function<MatrixXd()>>& changes, const Eigen::VectorXd& scale,
                       const ReductionOptions& options) {
-  // In parts, each cut down to the strongest so far: the eigenproblem has a bounded size however many places there are.
+  // In chunks, each reduced to the strongest so far. The eigenproblem then stays small, however many locations there are.
   const Index n = basis.vectors().rows();
   std::vector<CommonBasis::Held> part = {{MatrixXd(n, 0), MatrixXd(n, 0)}};
   Index columns = 0;
@@ -144,9 +144,9 @@ MatrixXd strongest_of(const CommonBasis& basis, const linalg::Cholesky& factor,
   return basis.strongest(std::move(all), options.parameter_vectors, options.least_correction).vectors;
 }
 
-/// K^-1 dK Phi and K^-1 dM Phi Lambda for each parameter and, where asked for, each group of elements, by as much as they may
-/// change; of each the strongest few beyond the basis, of these the strongest of all. Each mode counts by its strain energy, so
-/// that what is missed costs each the same part of its frequency.
+/// K^-1 dK Phi and K^-1 dM Phi Lambda for each parameter and, if asked for, each group of elements, by their possible change.
+/// The strongest few of each beyond the basis are kept, and of all these the strongest. Each mode is scaled by its strain
+/// energy, so that the remaining error is the same part of each frequency.
 MatrixXd corrections(const CommonBasis& basis, const linalg::Cholesky& factor, const fe::ParametricSystem& system,
                      const Eigen::VectorXd& theta, const Eigen::VectorXd& eigenvalue, const MatrixXd& low, const Places& places,
                      const ReductionOptions& options) {
@@ -167,13 +167,12 @@ MatrixXd corrections(const CommonBasis& basis, const linalg::Cholesky& factor, c
       if (place.mass.size() > 0)
         changes.emplace_back([&] { return MatrixXd(place.mass.times(options.element_change, low) * squares.asDiagonal()); });
     }
-  const double least = 1e-6 * squares[squares.size() - 1];  // modes of a free structure have none
+  const double least = 1e-6 * squares[squares.size() - 1];  // rigid-body modes have none
   const Eigen::VectorXd scale = squares.cwiseMax(least).cwiseSqrt().cwiseInverse();
   return strongest_of(basis, factor, changes, scale, options);
 }
 
-/// The same of what load tests do: K^-1 dK u for each parameter and group of elements.
-/// @param answers  u (n × m), of unit strain energy
+/// The same for load tests: K^-1 dK u for each parameter and group of elements.
 MatrixXd answer_corrections(const CommonBasis& basis, const linalg::Cholesky& factor, const fe::ParametricSystem& system,
                             const Eigen::VectorXd& theta, const MatrixXd& answers, const Places& places,
                             const ReductionOptions& options) {
@@ -192,14 +191,14 @@ MatrixXd answer_corrections(const CommonBasis& basis, const linalg::Cholesky& fa
   return strongest_of(basis, factor, changes, Eigen::VectorXd::Ones(answers.cols()), options);
 }
 
-/// Answers to the loads of load tests, of unit strain energy.
+/// Responses to the loads of load tests, of unit strain energy.
 MatrixXd unit_answers(const LoadTests& tests, const linalg::Cholesky& factor, const Symmetric& stiffness) {
   MatrixXd answers = factor.solve(loads_to_answer(tests));
   for (Index c = 0; c < answers.cols(); ++c) answers.col(c) /= std::sqrt(answers.col(c).dot(stiffness * answers.col(c)));
   return answers;
 }
 
-constexpr Index kForcesAtOnce = 512;  ///< unit forces of a place that are answered together: a support's line may be long
+constexpr Index kForcesAtOnce = 512;  ///< unit forces of a location that are solved together; a support's line may have many
 
 /// Calls fn(unit forces) for a few at once.
 template <typename Fn>

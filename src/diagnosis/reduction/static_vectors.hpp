@@ -14,32 +14,33 @@ namespace twindeck::diagnosis {
 
 class CommonBasis;
 
-/// The vectors that a structure is reduced to: common ones, and from them and the factor of K those of a place, as often as
-/// they are asked for and always to the same bits.
+/// Makes the basis vectors of the reduced structure: the common ones and, from these and the factor of K, those of a location.
+/// Repeated calls give the same bits.
 class StaticVectors {
  public:
   StaticVectors();
   ~StaticVectors();
 
-  /// The stiffness as the structure stands, and the factor that static corrections come from.
+  /// Sets the stiffness of the unchanged structure, and its factor for static corrections.
   /// @throws InputError if K is singular beyond rigid-body motion
   void factorize(const Structure& structure);
-  /// The common vectors: modes, corrections for parameters and element scatter, dampers, load tests.
+  /// Makes the common vectors: modes, corrections for parameters and element scatter, dampers, load tests.
   void make_common(const Structure& structure, const Places& places, const dynamics::EigenModes& modes,
                    const ReductionOptions& options);
   [[nodiscard]] const Eigen::MatrixXd& common() const;  ///< (n × c) orthonormal in K
-  /// What stands for causes at a place, beside the common vectors: K^-1 b for a force direction, K^-1 (dK Phi) for a factor.
-  /// @param turn  becomes what makes them of `loads_at`, K^-1 loads turn beyond the common vectors
+  /// Vectors for causes at a location, beyond the common ones: K^-1 b for a force direction, K^-1 (dK Phi) for a factor.
+  /// @param turn  becomes the factors that make the vectors from `loads_at`: K^-1 loads turn, without the common part. May be
+  ///         null
   [[nodiscard]] Eigen::MatrixXd own_vectors(const Place& place, int count, Eigen::MatrixXd* turn = nullptr) const;
-  /// Computes the same vectors, to rounding, from few forces at the place. It borrows from this.
+  /// A function that computes the same vectors, to rounding, from few forces at the location. It refers to this object.
   [[nodiscard]] std::function<Eigen::MatrixXd()> recipe(const Place& place, int count) const;
-  /// Force of all unit forces of a place over the displacements that they make along themselves.
+  /// Stiffness of a location against all its unit forces together: force over displacement along it.
   [[nodiscard]] double drive_stiffness(const Eigen::SparseMatrix<double>& directions) const;
-  /// K where the basis was made, shifted where the structure is free.
+  /// K of the unchanged structure; shifted if the structure is free.
   [[nodiscard]] const Symmetric& stiffness() const { return stiffness_; }
 
  private:
-  /// Forces whose responses stand for causes at a place (n × any).
+  /// Forces whose responses represent causes at a location (n × any).
   [[nodiscard]] Eigen::MatrixXd loads_at(const Place& place) const;
   /// The strongest responses to the unit forces of a place.
   [[nodiscard]] Eigen::MatrixXd responses(const Eigen::SparseMatrix<double>& directions, int count) const;
@@ -47,7 +48,7 @@ class StaticVectors {
   Symmetric stiffness_;
   linalg::Cholesky factor_;
   std::unique_ptr<CommonBasis> basis_;
-  Eigen::MatrixXd low_, answers_;  ///< the modes, and the responses to load tests, that vectors of places are made of
+  Eigen::MatrixXd low_, answers_;  ///< modes, and responses to load tests, that vectors of locations are made from
 };
 
 }  // namespace twindeck::diagnosis

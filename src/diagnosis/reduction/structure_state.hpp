@@ -26,19 +26,19 @@ struct Attachment {
 [[nodiscard]] std::complex<double> sliding_stiffness(double stiffness, double threshold_N, double damping, double omega,
                                                      double amplitude_m);
 
-/// d(s, X) of an attachment at peak amplitude X [N/m], and its derivative in s (of friction none: it goes by |s| alone).
+/// d(s, X) of an attachment at peak amplitude X [N/m], and its derivative in s (zero for friction, which depends on |s| only).
 [[nodiscard]] std::pair<std::complex<double>, std::complex<double>> dynamic_stiffness(const Attachment& a,
                                                                                       std::complex<double> s,
                                                                                       double amplitude_m);
 
-/// d²d/ds² of an attachment [N s²/m]: of a Maxwell element -2 k² c²/(k + c s)³, of others none.
+/// d²d/ds² of an attachment [N s²/m]: of a Maxwell element -2 k² c²/(k + c s)³, of others zero.
 [[nodiscard]] std::complex<double> second_derivative(const Attachment& a, std::complex<double> s);
 
-/// One state of the structure: matrices and attachments under one set of circumstances.
+/// One state of the structure: matrices and attachments in one set of conditions.
 struct StructureState {
   Eigen::MatrixXd stiffness, mass;  ///< (n × n)
   std::vector<Attachment> attachments;
-  Eigen::RowVectorXd amplitude_row;  ///< (n) motion at the channel that the amplitude is known at; empty if unknown
+  Eigen::RowVectorXd amplitude_row;  ///< (n) motion at the channel of the known amplitude; empty if unknown
   double amplitude_m = 0.0;          ///< RMS displacement there; 0: small, nothing slips
   [[nodiscard]] bool damped() const { return !attachments.empty(); }
 };
@@ -46,8 +46,8 @@ struct StructureState {
 /// Motion b' phi along a direction.
 [[nodiscard]] std::complex<double> along(const Eigen::Ref<const Eigen::VectorXd>& b, const Eigen::VectorXcd& phi);
 
-/// [m] Peak amplitude of an element that moves by `here` in a mode that moves the amplitude's channel, where the RMS is known,
-/// by `there`. A mode that hardly moves the channel cannot be scaled by it: at most 50 times the channel's amplitude.
+/// [m] Peak amplitude of an element that moves by `here` in a mode; the mode moves the channel with the known RMS by `there`. A
+/// mode that hardly moves that channel cannot be scaled by it, so the result is at most 50 times the channel's amplitude.
 [[nodiscard]] double peak(const StructureState& state, std::complex<double> here, std::complex<double> there);
 
 /// The same of an element of direction b (n) in the mode phi (n); 0 where no amplitude is known.

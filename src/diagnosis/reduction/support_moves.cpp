@@ -4,7 +4,7 @@
 
 #include "diagnosis/reduction/place_parts.hpp"
 
-/// Where a support on a line of beams may stand instead.
+/// Other positions of a support on a line of beams.
 namespace twindeck::diagnosis {
 
 namespace {
@@ -12,10 +12,10 @@ namespace {
 using Eigen::Index;
 using Eigen::Vector3d;
 
-constexpr double kStraight = 0.8;       // cosine of the turn from beam to beam beyond which a line goes no further
+constexpr double kStraight = 0.8;       // least cosine of the angle between two beams of one line
 constexpr std::size_t kMostNodes = 24;  // to either side of the support
 
-/// The nodes that a line of beams passes on one side of a node, with the way to each.
+/// Nodes of a line of beams on one side of a node, with the distance to each along the line.
 std::vector<std::pair<int, double>> walk(const fe::Model& model, const std::multimap<int, int>& beams, int from,
                                          Vector3d towards) {
   std::vector<std::pair<int, double>> out;
@@ -44,7 +44,6 @@ std::vector<std::pair<int, double>> walk(const fe::Model& model, const std::mult
   return out;
 }
 
-/// Neighbours along beams, both ways.
 std::multimap<int, int> beams_of(const fe::Model& model) {
   std::multimap<int, int> beams;
   for (const fe::Element& element : model.elements) {
@@ -81,21 +80,21 @@ void ElementPlaces::add_support_moves(Places& places) const {
   for (const Place& support : places.sets["supports"]) {
     std::vector<const fe::Spring*> springs;  // of this support: translations to the ground, all at one node
     const std::string name = support.id.substr(support.id.find(':') + 1);
-    bool clamped = false;  // a foot that holds against turning is built in: it does not stand elsewhere
+    bool clamped = false;  // a foot with rotational stiffness is built in and cannot move
     for (const fe::Spring& spring : model_.springs) {
       if ((spring.group.empty() ? spring.name : spring.group) != name || spring.node2 >= 0 || !fe::carries_stiffness(spring))
         continue;
       clamped = clamped || spring.rotation;
       if (!spring.rotation && spring.damping == 0.0 && spring.friction_N == 0.0) springs.push_back(&spring);
     }
-    // Beside bearings of its name what is rigid is a place of its own, which stays.
+    // If the support also has bearings, its rigid springs are a location of their own, which does not move.
     const auto rigid = [&](const fe::Spring* s) { return stands_for_rigid(*s); };
     if (!std::all_of(springs.begin(), springs.end(), rigid)) std::erase_if(springs, rigid);
     if (springs.empty() || clamped) continue;
     const int node = springs.front()->node;
     if (std::any_of(springs.begin(), springs.end(), [&](const fe::Spring* s) { return s->node != node; })) continue;
     const std::vector<std::pair<int, double>> line = line_through(model_, beams, node);
-    constexpr std::size_t kFewest = 4;  // nodes that a support can go between
+    constexpr std::size_t kFewest = 4;  // nodes that a support can move between
     if (line.size() < kFewest) continue;
     Place place{support.id, support.x_m, support.stiffness, {}, {}, {}, {}, support.stiffness_law};
     std::vector<Eigen::Triplet<double>> entries;
@@ -119,7 +118,7 @@ void ElementPlaces::add_support_moves(Places& places) const {
     set("stations", static_cast<double>(line.size()));
     set("x_low", place.attributes.at("x_0"));
     set("x_high", place.attributes.at("x_" + std::to_string(line.size() - 1)));
-    constexpr int kStarts = 8;  // that the screen tries, evenly between the ends
+    constexpr int kStarts = 8;  // trial positions of the screen, evenly between the ends
     for (int s = 0; s < kStarts; ++s)
       set("x_start_" + std::to_string(s),
           place.attributes["x_low"] + (s + 0.5) / kStarts * (place.attributes["x_high"] - place.attributes["x_low"]));

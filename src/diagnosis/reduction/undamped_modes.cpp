@@ -13,11 +13,11 @@ using Eigen::MatrixXd;
 
 UndampedModes::UndampedModes(const MatrixXd& k, const MatrixXd& m, double up_to) : stiffness(k), mass(m), highest(up_to) {
   MatrixXd factor = linalg::cholesky_factor(k);
-  if (factor.size() == 0) {  // free as a rigid body
+  if (factor.size() == 0) {  // free to move as a rigid body
     shift = 1e-7 * k.trace() / m.trace();
     factor = linalg::cholesky_factor(k + shift * m);
   }
-  if (factor.size() == 0) {  // no structure stands like this: it has no modes
+  if (factor.size() == 0) {  // such a structure is unstable and has no modes
     mu = Eigen::VectorXd::Zero(k.rows());
     shapes = MatrixXd::Zero(k.rows(), k.rows());
     return;

@@ -14,13 +14,13 @@ namespace {
 
 using Eigen::Vector3d;
 
-constexpr double kShownAxis = 0.05;  ///< of the largest extent: along a shorter axis a coordinate tells no places apart
-constexpr double kSamePoint = 1e-3;  ///< of the largest extent: points this near are one
-constexpr double kNeighbour = 0.1;   ///< of the largest extent: further off a named thing is no help
-constexpr double kCompact = 0.25;    ///< of the largest extent: what is larger has no middle to go to
-constexpr std::size_t kListed = 3;   ///< points that are listed one by one
-constexpr double kParts = 100.0;     ///< coordinates tell the structure's length to better than one part in this many
-constexpr int kMostDecimals = 4;     ///< of metres: models are built to a tenth of a millimetre
+constexpr double kShownAxis = 0.05;  ///< of the largest extent; coordinates along a shorter axis are not shown
+constexpr double kSamePoint = 1e-3;  ///< of the largest extent; nearer points count as one
+constexpr double kNeighbour = 0.1;   ///< of the largest extent; landmarks farther away are not named
+constexpr double kCompact = 0.25;    ///< of the largest extent; for larger groups no middle is named
+constexpr std::size_t kListed = 3;   ///< points that are listed singly
+constexpr double kParts = 100.0;     ///< least number of steps in which coordinates resolve the structure's length
+constexpr int kMostDecimals = 4;     ///< of metres; models are built to a tenth of a millimetre
 
 const Vector3d kNowhere = Vector3d::Constant(std::numeric_limits<double>::quiet_NaN());
 
@@ -42,7 +42,7 @@ Vector3d middle_of(const std::vector<Vector3d>& points) {
   return points.empty() ? kNowhere : Vector3d(sum / static_cast<double>(points.size()));
 }
 
-/// The first in the alphabet of the most frequent names; "" of none.
+/// The most frequent name, of equals the first in the alphabet; "" if there is none.
 std::string most_frequent(const std::map<std::string, int>& counts) {
   const auto most =
       std::max_element(counts.begin(), counts.end(), [](const auto& a, const auto& b) { return a.second < b.second; });
@@ -164,7 +164,8 @@ PlaceWords::Points PlaceWords::distinct(const Points& points) const {
   return out;
 }
 
-/// "the support foot at x = 0 m and at x = 5 m"; many points that lie together by their middle, scattered ones not at all.
+/// "the support foot at x = 0 m and at x = 5 m". Many points close together are described by their middle; scattered ones are
+/// left out.
 PlaceInWords PlaceWords::with_points(const std::string& words, const Points& points) const {
   const Points all = distinct(points);
   if (all.empty()) return {words, kNowhere};
@@ -230,7 +231,7 @@ PlaceInWords PlaceWords::nodes(const std::vector<std::string>& names) const {
 }
 
 PlaceInWords PlaceWords::zone(const std::string& location, const std::string& name) const {
-  for (const auto& [set, list] : places_.sets) {  // zones, and the halves of zones and groups
+  for (const auto& [set, list] : places_.sets) {  // zones, groups and halves of both
     if (model_ == nullptr) break;
     for (const Place& place : list) {
       if (place.id != location) continue;

@@ -9,8 +9,7 @@
 #include "diagnosis/reduction/structure.hpp"
 #include "matching/measured.hpp"
 
-/// Locations of the diagnosis ("node:725", "support:pier_W", "group:E_s") in the words of somebody who stands before the
-/// structure.
+/// Describes locations of the diagnosis ("node:725", "support:pier_W", "group:E_s") in words for a person at the structure.
 namespace twindeck::diagnosis {
 
 /// Where a person would look.
@@ -21,19 +20,18 @@ struct PlaceInWords {
 
 /// Words for the locations of one model.
 ///
-/// A place is told by what has a name there, as the user named it (group of elements, support, stay, damper, sensor), and by
-/// its coordinates along the axes in which the structure extends. A matrix model without coordinates is told by its names
-/// alone.
+/// A location is described by the user's names (group of elements, support, stay, damper, sensor) and by its coordinates along
+/// the axes in which the structure extends. For a matrix model without coordinates only names are used.
 class PlaceWords {
  public:
   /// @param model     null for a matrix model
   /// @param dofs      of a matrix model; not read where there is a finite element model
   /// @param channels  of the measurement
-  /// @param places    of the diagnosis: what its zones and stays are made of
+  /// @param places    of the diagnosis, with the elements of zones and stays
   PlaceWords(const fe::Model* model, const std::vector<fe::DofLabel>& dofs, const std::vector<matching::Channel>& channels,
              const Places& places);
 
-  /// A location that is of no known kind is returned as it is.
+  /// A location of unknown kind is returned unchanged.
   [[nodiscard]] PlaceInWords at(const std::string& location) const;
 
  private:
@@ -47,7 +45,7 @@ class PlaceWords {
   void find_parts();
   void find_landmarks();
   [[nodiscard]] std::string coordinates(const Eigen::Vector3d& x) const;  ///< "x = 34 m, y = 5 m"; "" where unknown
-  [[nodiscard]] std::string near(const Eigen::Vector3d& x) const;         ///< ", 3.2 m from the sensor A5"; "" where nothing is
+  [[nodiscard]] std::string near(const Eigen::Vector3d& x) const;  ///< ", 3.2 m from the sensor A5"; "" if nothing is near
   [[nodiscard]] Points distinct(const Points& points) const;
   [[nodiscard]] PlaceInWords with_points(const std::string& words, const Points& points) const;
 
@@ -67,9 +65,9 @@ class PlaceWords {
   std::map<std::string, Eigen::Vector3d> node_x_m_;  ///< by name; NaN where a matrix model gives none
   std::map<std::string, std::string> part_of_node_;  ///< group that most elements at a node belong to, by the node's name
   std::vector<Landmark> landmarks_;
-  double extent_m_ = 0.0;        ///< largest of the structure
-  int axis_ = 0;                 ///< along which it is
-  std::array<bool, 3> shown_{};  ///< axes whose coordinate tells places apart
+  double extent_m_ = 0.0;        ///< largest dimension of the structure
+  int axis_ = 0;                 ///< axis of the largest dimension
+  std::array<bool, 3> shown_{};  ///< axes whose coordinate is shown
   int decimals_ = 0;             ///< of coordinates
 };
 

@@ -11,10 +11,10 @@ namespace twindeck::diagnosis {
 
 namespace {
 
-constexpr double kPlainBelow = 1e6;   ///< numbers from here on are told in millions
-constexpr double kPlainAbove = 1e-4;  ///< smaller ones are told by powers of ten
+constexpr double kPlainBelow = 1e6;   ///< numbers from here on are given in millions
+constexpr double kPlainAbove = 1e-4;  ///< smaller numbers are given with powers of ten
 
-/// The digits of a number that is no less than one thousand, in threes.
+/// The digits of a number of at least one thousand, in groups of three.
 std::string in_threes(long number) {
   std::string digits = std::to_string(number);
   for (auto at = static_cast<std::ptrdiff_t>(digits.size()) - 3; at > 0; at -= 3)
@@ -22,7 +22,7 @@ std::string in_threes(long number) {
   return digits;
 }
 
-/// So many significant digits without an exponent, zeros at the end left out.
+/// A number with some significant digits, without exponent and without zeros at the end.
 std::string plain(double size, int digits) {
   const int before = static_cast<int>(std::floor(std::log10(size))) + 1;
   const double step = std::pow(10.0, before - digits), rounded = std::round(size / step) * step;

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-/// Numbers, lists and ids as a sentence for people has them.
+/// Numbers, lists and ids in the words of a sentence.
 namespace twindeck::diagnosis {
 
 /// "34", "2.5": no more decimals than asked for, zeros at the end left out.
@@ -20,21 +20,21 @@ namespace twindeck::diagnosis {
 /// "A, B and C".
 [[nodiscard]] std::string listed(const std::vector<std::string>& names);
 
-/// With a capital at its beginning.
+/// The text with a capital at its beginning.
 [[nodiscard]] std::string capitalised(std::string text);
 
-/// With a full stop at its end, where it has none; an empty text stays empty.
+/// The text with a full stop at its end; an empty text stays empty.
 [[nodiscard]] std::string ended(std::string text);
 
-/// Texts that name causes and locations by their ids, for people: "support:pier_W" becomes "the support pier_W",
+/// Replaces the ids of causes and locations in texts by words: "support:pier_W" becomes "the support pier_W",
 /// "brg@support:pier_W" becomes "support softer or stiffer than modelled at the support pier_W".
 class IdsInWords {
  public:
   void add_location(const std::string& location, const std::string& words);
-  /// @param place_words  empty where the cause is of the whole structure
+  /// @param place_words  empty if the cause concerns the whole structure
   void add_cause(const std::string& id, const std::string& title, const std::string& place_words);
-  /// The text with every id that was added in words. Of ids that begin alike the longest is taken; a part of a longer name is
-  /// left alone.
+  /// The text with words in place of every added id. Of ids with the same beginning, the longest is replaced. A part of a
+  /// longer name is kept.
   [[nodiscard]] std::string in_text(const std::string& text) const;
 
  private:

@@ -19,13 +19,13 @@ using Eigen::VectorXd;
 
 constexpr int kMeasuredDigits = 4;  ///< of measured values: frequencies are known to a part in a thousand
 constexpr int kOddsDigits = 2;
-constexpr double kMostOdds = 1000.0;      ///< to 1: a person does not tell larger ones apart
+constexpr double kMostOdds = 1000.0;      ///< to 1; larger odds are not written as numbers
 constexpr int kCountDigits = 9;           ///< of a number of rows: all of them
-constexpr std::size_t kRivals = 3;        ///< that are named one by one
-constexpr double kAlmostOne = 0.995;      ///< probabilities that two digits would show as 1
-constexpr double kAlmostNothing = 0.005;  ///< … or as 0
+constexpr std::size_t kRivals = 3;        ///< rivals that are named singly
+constexpr double kAlmostOne = 0.995;      ///< larger probabilities would be rounded to 1 with two digits
+constexpr double kAlmostNothing = 0.005;  ///< … and smaller ones to 0
 
-/// Rows that are told together: one frequency, the shape of a mode, all shapes at a sensor.
+/// Rows that share a sentence: one frequency, the shape of a mode, all shapes at a sensor.
 struct Block {
   std::string words;
   std::vector<std::size_t> rows;
@@ -38,7 +38,7 @@ double mean_square(const Block& block, const VectorXd& residual) {
   return sum / static_cast<double>(block.rows.size());
 }
 
-/// How much the rows of a block speak against their stated deviations: log likelihood ratio of the scale of n Gaussian errors
+/// Evidence of the rows of a block against their stated deviations: log likelihood ratio of the scale of n Gaussian errors
 /// [nats].
 double surprise(const Block& block, const VectorXd& residual) {
   const double ratio = mean_square(block, residual);
@@ -91,8 +91,8 @@ std::string unit_of(RowType type) {
   }
 }
 
-/// False for a held-out damping ratio of a mode of whose damping no row is in the fit: every mode has a ratio of its own, so
-/// that nothing predicts this one.
+/// Whether a row is predicted. A held-out damping ratio is not, if the fit has no damping row of its mode, because every mode
+/// has a damping ratio of its own.
 bool is_predicted(const FeatureSet& features, const Row& row) {
   if (row.type != RowType::damping || !row.held_out) return true;
   return std::any_of(features.rows.begin(), features.rows.end(), [&](const Row& other) {
@@ -172,7 +172,7 @@ std::string what_is_wrong(const Inference& inference, const Diagnosis& result, c
                      beyond == 1 ? "is" : "are", limit);
 }
 
-/// "factor 0.55 to 0.68", "Fc at least 181 N": what is not in the sentence already.
+/// "factor 0.55 to 0.68", "Fc at least 181 N": intervals that the sentence does not contain yet.
 std::string interval_words(const EffectParameter& p) {
   std::string name = p.name;
   std::string tail = "_" + p.unit;
@@ -187,7 +187,7 @@ std::string interval_words(const EffectParameter& p) {
   return fmt::format("{} {} to {}", name, low, high);
 }
 
-/// The effect's sentence and the intervals that it does not tell itself.
+/// The effect's sentence, with the intervals that it does not contain.
 std::string with_intervals(const Effect& effect) {
   const Candidate& candidate = *effect.cause.candidate;
   const std::string when = candidate.further_states.empty() ? "state " + effect.state : candidate.when;
@@ -255,7 +255,7 @@ std::string rivals_words(const Effect& effect, const IdsInWords& ids) {
   return fmt::format("These data cannot tell it from: {}{}.", fmt::join(named, "; "), more);
 }
 
-/// Several causes that stand: each with its probability, and those that the data cannot tell from others.
+/// Sentence on several causes: the probability of each, and the ones that the data cannot distinguish.
 std::string how_sure_of_each(const Diagnosis& result, const IdsInWords& ids) {
   std::vector<std::string> probabilities, rivals;
   for (std::size_t i = 0; i < result.effects.size(); ++i) {
@@ -294,7 +294,7 @@ std::string how_sure_it_is(const Diagnosis& result, const IdsInWords& ids) {
   return text + rivals_words(first, ids);
 }
 
-/// Mean of the sizes of something over the held-out modes, those that are no numbers left out; NaN where none is left.
+/// Mean absolute value of a member over the held-out modes, without NaN; NaN if none is left.
 double mean_of(const std::vector<HeldOutMode>& modes, double HeldOutMode::*what) {
   double sum = 0.0;
   int count = 0;
@@ -358,7 +358,7 @@ std::string left_over_words(const Diagnosis& result, const PlaceWords& places) {
       places.at(result.localisation.front().location).words);
 }
 
-/// The hypothesis' own sentence with place and numbers in words.
+/// The hypothesis' own sentence, with location and numbers filled in.
 std::string effect_words(const Effect& effect, const PlaceWords& places) {
   std::string text = effect.cause.candidate->hypothesis->sentence;
   const auto replace = [&](const std::string& key, const std::string& value) {
@@ -369,7 +369,7 @@ std::string effect_words(const Effect& effect, const PlaceWords& places) {
   for (const EffectParameter& p : effect.parameters) {
     for (const auto& [key, value] :
          {std::pair{p.name, p.value}, std::pair{p.name + ".low", p.low}, std::pair{p.name + ".high", p.high}}) {
-      if (!p.unit.empty() && p.unit != "-")  // a unit behind the number takes a prefix
+      if (!p.unit.empty() && p.unit != "-")  // a number with a unit takes a prefix
         replace("{" + key + "} " + p.unit, quantity_in_words(value, p.unit));
       replace("{" + key + "}", number_in_words(value));
     }

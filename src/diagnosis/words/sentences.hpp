@@ -10,21 +10,20 @@
 /// Room diagnosis/words: what a diagnosis says to people. It takes the diagnosis with its ids, locations and numbers, and the
 /// model whose parts have names. It gives sentences, places and sizes in plain words; a step prints them and writes them down.
 ///
-/// This file: what a diagnosis says, in a sentence each: the same words and numbers on the terminal, in diagnosis.json and in
-/// the report.
+/// This file: the results of a diagnosis in sentences, with the same words and numbers on the terminal, in diagnosis.json and
+/// in the report.
 namespace twindeck::diagnosis {
 
 struct Sentences {
-  std::string
-      what;  ///< the measured quantity that the model fitted within its bounds misses most, and by how many standard deviations
+  std::string what;             ///< the measured quantity with the largest misfit, and the number of standard deviations
   std::string why;              ///< the cause in words, its place, its sizes with intervals
   std::string how_sure;         ///< probability and rivals
-  std::string how_much_better;  ///< the gain with its interval, or that none is shown
+  std::string how_much_better;  ///< the gain with its interval, or that there is none
   std::string next;             ///< one thing to do
 };
 
 /// Words for every location and cause that the entries of a diagnosis name.
-/// @param ranking  of the result: it may name entries that were laid round the leader
+/// @param ranking  of the result; it may name entries that were added around the leading one
 [[nodiscard]] IdsInWords ids_in_words(const PlaceWords& places, const Inference& inference,
                                       const std::vector<Scored>& ranking = {});
 
@@ -32,14 +31,14 @@ struct Sentences {
 /// places, their numbers get three digits.
 void put_into_words(Diagnosis& result, const PlaceWords& places, const IdsInWords& ids);
 
-/// The gain that is told: that of the rows that were held out, or of each mode left out in turn where none was.
+/// The gain to report: that of the held-out rows or, without any, that of leaving out each mode in turn.
 [[nodiscard]] Gain told_gain(const Diagnosis& result);
 
 /// Whether the gain's interval lies above zero.
 [[nodiscard]] bool shows_gain(const Gain& gain);
 
-/// What would decide what is open, the most wanted first: between the members of a cluster, beyond one-sided limits, about what
-/// is left; in the last line, what cannot be asked with these rows.
+/// Measurements that would decide open questions, the most useful first: between the members of a cluster, about one-sided
+/// limits, about the remaining misfit. The last line names causes that these rows cannot show.
 [[nodiscard]] std::vector<std::string> measure_next(const Diagnosis& result, const PlaceWords& places, const IdsInWords& ids,
                                                     const std::vector<Invisible>& invisible);
 
