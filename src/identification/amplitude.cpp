@@ -15,19 +15,19 @@ using std::numbers::pi;
 
 namespace {
 
-constexpr Index kLastPart = 10;         ///< [-] the last tenth of a record tells its noise: most decays have ended there
-constexpr Index kFewestOfLastPart = 8;  ///< [samples] an RMS of fewer is a matter of chance
+constexpr Index kLastPart = 10;         ///< the last 1/kLastPart of a record gives its noise; most decays have ended by then
+constexpr Index kFewestOfLastPart = 8;  ///< [samples] an RMS of fewer samples is random
 constexpr double kMotionInLastPart =
-    3.0;  ///< [-] RMS there over noise: what is left of the motion counts too (DecayingCoordinate)
+    3.0;  ///< [-] assumed ratio of the RMS there to the noise: some motion may remain (DecayingCoordinate)
 
-/// 1 within half the width of the centre, 0 beyond three halves, a cosine between.
+/// 1 within half the width of the centre, 0 beyond three halves, a cosine flank between.
 double window(double offset, double half_width) {
   const double x = (std::abs(offset) - 0.5 * half_width) / half_width;
   if (x <= 0.0) return 1.0;
   return x >= 1.0 ? 0.0 : 0.5 + 0.5 * std::cos(pi * x);
 }
 
-/// A mode's coordinate by least squares on its shape, whose largest component counts 1.
+/// Coordinate of a mode by least squares on its shape, with the largest component scaled to 1.
 Eigen::VectorXd by_shape(const Eigen::Ref<const Eigen::MatrixXd>& data, const Eigen::VectorXcd& shape) {
   TWINDECK_ASSERT(shape.size() == data.cols() && data.rows() >= 8);
   Eigen::VectorXd weights = shape.real();
@@ -46,7 +46,7 @@ struct FittedLine {
   double slope = 0.0, deviation = 0.0;
 };
 
-/// Least squares over samples one step apart; the deviation counts one independent residual each `memory` samples.
+/// Least squares over samples one step apart; for the deviation, one residual in `memory` samples counts as independent.
 FittedLine fitted_line(const Eigen::VectorXd& y, double step, double memory) {
   const auto n = static_cast<double>(y.size());
   const Eigen::VectorXd x = Eigen::VectorXd::LinSpaced(y.size(), -0.5 * (n - 1.0), 0.5 * (n - 1.0)) * step;
@@ -63,14 +63,14 @@ FittedLine fitted_line(const Eigen::VectorXd& y, double step, double memory) {
 Eigen::VectorXcd modal_coordinate(const Eigen::Ref<const Eigen::MatrixXd>& data, double rate_Hz, const Eigen::VectorXcd& shape,
                                   double frequency_Hz, double half_width_Hz) {
   const Eigen::VectorXd q = by_shape(data, shape);
-  // The record is followed by zeros, so that its end does not meet its beginning.
+  // Zeros follow the record, so that the filter does not connect its end with its beginning.
   const Index n = q.size(), size = signal::fast_fft_size(n + static_cast<Index>(2.0 * rate_Hz / half_width_Hz));
   signal::RealFft fft(size);
   Eigen::VectorXcd spectrum = fft.forward(q);
   const double line_Hz = rate_Hz / static_cast<double>(size);
   for (Index m = 0; m < spectrum.size(); ++m)
     spectrum[m] *= window(static_cast<double>(m) * line_Hz - frequency_Hz, half_width_Hz);
-  // Real part by the inverse; the imaginary part (Hilbert transform) from the spectrum turned by -90 degrees.
+  // Real part by the inverse transform; the imaginary part (Hilbert transform) from the spectrum turned by -90 degrees.
   const Eigen::VectorXd real = fft.inverse(spectrum);
   spectrum *= std::complex<double>(0.0, -1.0);
   const Eigen::VectorXd imag = fft.inverse(spectrum);
@@ -91,7 +91,7 @@ DecayingCoordinate decaying_coordinate(const Eigen::Ref<const Eigen::MatrixXd>& 
   const Eigen::VectorXd q = by_shape(data, shape).head(n);
   Eigen::VectorXcd still(n);
   for (Index t = 0; t < n; ++t) still[t] = 2.0 * q[t] * std::exp(turn * static_cast<double>(t));
-  // Followed by zeros over the memory of both ends.
+  // Zeros follow the record, over the filter's memory at both ends.
   const Index size = signal::fast_fft_size(n + static_cast<Index>(4.0 * rate_Hz / half_width_Hz));
   signal::RealFft fft(size);
   const double line_Hz = rate_Hz / static_cast<double>(size);
@@ -114,7 +114,7 @@ std::vector<AmplitudePoint> decay_by_amplitude(const Eigen::VectorXcd& coordinat
   Eigen::VectorXd envelope = coordinate.cwiseAbs(), phase(n);
   phase[0] = std::arg(coordinate[0]);
   for (Index t = 1; t < n; ++t) phase[t] = phase[t - 1] + std::arg(coordinate[t] * std::conj(coordinate[t - 1]));
-  // The filter's memory spoils the first moments; the decay is read until it meets the noise.
+  // The first moments are left out, because the filter's memory spoils them. The decay ends where it meets the noise.
   const auto memory = static_cast<Index>(std::ceil(memory_s * rate_Hz));
   Index begin = std::min<Index>(memory, n / 4), end = n;
   envelope.segment(begin, std::max<Index>(1, std::min(n - begin, 2 * memory))).maxCoeff(&begin);

@@ -27,16 +27,15 @@ struct AmplitudePoint {
 /// Coordinate of a mode that decays freely.
 struct DecayingCoordinate {
   Eigen::VectorXcd value;  ///< (n) as of modal_coordinate, from the beginning of the record until the decay meets the noise
-  /// A third of the RMS over the last tenth of the record. A short record still has motion there, which is then taken for
-  /// noise.
+  /// A third of the RMS over the last tenth of the record. In a short record this includes remaining motion.
   double noise = 0.0;
 };
-/// The same of a mode that decays freely, without the ringing of the filter at both ends of the record. The coordinate is
-/// turned back and magnified by what is known of the mode, e^((zeta - i) 2 pi f t): a linear decay becomes a constant. A moving
-/// mean follows, with the weights of the filter, of the samples that the record has. It leaves a constant what it is, up to the
-/// ends. The record is read until the decay meets the noise, because later noise would be magnified.
-/// @param frequency_Hz, damping_ratio  of the mode as known; an error is a slow change that the filter lets pass
-/// Reference: Knutsson and Westin (1993), Computer Vision and Pattern Recognition, 515-523 (normalised convolution).
+/// Modal coordinate of a mode that decays freely, without the ringing of the filter at both ends of the record. The signal is
+/// multiplied by e^((zeta - i) 2 pi f t) with the known frequency and damping, which turns a linear decay into a constant. Then
+/// follows a moving mean over the existing samples, with the weights of the filter. It keeps a constant, also at the ends. The
+/// record is read until the decay meets the noise, because later noise would be magnified.
+/// @param frequency_Hz, damping_ratio  known values of the mode; their error leaves a slow change, which the filter passes
+///         Reference: Knutsson and Westin (1993), Computer Vision and Pattern Recognition, 515-523 (normalised convolution).
 [[nodiscard]] DecayingCoordinate decaying_coordinate(const Eigen::Ref<const Eigen::MatrixXd>& data, double rate_Hz,
                                                      const Eigen::VectorXcd& shape, double frequency_Hz, double damping_ratio,
                                                      double half_width_Hz);

@@ -132,7 +132,7 @@ std::size_t centre(const std::vector<DiagramPole>& diagram, const Members& membe
   return *std::min_element(members.begin(), members.end(), [&](std::size_t a, std::size_t b) { return spread(a) < spread(b); });
 }
 
-/// The group and, of orders that it lacks, the poles within `reach` of its centre.
+/// The group, with the poles of its missing orders that lie within `reach` of its centre.
 Members with_neighbours(const std::vector<DiagramPole>& diagram, const Members& group, const std::vector<bool>& claimed,
                         std::size_t middle, double reach) {
   std::set<int> present;
@@ -148,7 +148,7 @@ int first_order(const std::vector<DiagramPole>& diagram, const Cluster& cluster)
   return diagram[cluster.members.front()].pole.order;
 }
 
-/// The pole of the cluster's last order is found again at the next one, as the first of the other cluster.
+/// Whether the nearest pole of the next order to the cluster's last pole is the first pole of the other cluster.
 bool goes_on(const std::vector<DiagramPole>& diagram, const std::vector<int>& orders, const Cluster& cluster,
              const Cluster& other, double cut) {
   const DiagramPole& last = diagram[cluster.members.back()];
@@ -161,8 +161,8 @@ bool goes_on(const std::vector<DiagramPole>& diagram, const std::vector<int>& or
   return to_last(first) < cut;
 }
 
-/// Without the clusters that go on as another: one mode, which at the smaller orders still holds a share of a neighbour that
-/// these orders have no pole for. The higher orders speak for it.
+/// Drops each cluster that continues as another one. Both are one mode. At its smaller orders the mode is mixed with a
+/// neighbour that has no pole yet, so the cluster at the higher orders is kept.
 std::vector<Cluster> whole_chains(const std::vector<DiagramPole>& diagram, const std::vector<int>& orders,
                                   const std::vector<Cluster>& clusters, double cut) {
   std::vector<Cluster> whole;
@@ -174,7 +174,7 @@ std::vector<Cluster> whole_chains(const std::vector<DiagramPole>& diagram, const
   return whole;
 }
 
-/// Largest share of a mixture's orders at which both neighbours have poles of their own beside it.
+/// [-] Largest share of a mixture's orders at which both neighbours have poles of their own.
 constexpr double kMixtureBeside = 0.49;
 
 /// Part of a unit-norm shape, squared, outside the span of two others.
@@ -186,15 +186,15 @@ double outside_span(const Eigen::VectorXcd& shape, const Eigen::VectorXcd& first
   return std::max(0.0, 1.0 - (std::norm(a.dot(shape)) + std::norm(b.dot(shape))) / shape.squaredNorm());
 }
 
-/// Largest residual outside the span that counts as none. A random real shape of n channels has a residual below r with
+/// Largest residual outside the span that still counts as inside. A random real shape of n channels has a residual below r with
 /// probability r^((n - 2)/2).
 double largest_residual(Index channels, const AutomaticRule& rule) {
   if (channels <= 2) return 0.0;
   return std::min(rule.mixture_residual, std::pow(rule.mixture_chance, 2.0 / static_cast<double>(channels - 2)));
 }
 
-/// At the cluster's orders, but for the stated share, one of the two neighbours has no pole, and both go on at orders above its
-/// last one.
+/// Whether one of the two neighbours has no pole at the cluster's orders, except for the stated share of them, and both
+/// continue above its last order.
 bool gives_way(const std::vector<DiagramPole>& diagram, const Cluster& cluster, const Cluster& low, const Cluster& high,
                double share_beside) {
   const auto last = [&](const Cluster& c) { return diagram[c.members.back()].pole.order; };
@@ -209,7 +209,7 @@ bool gives_way(const std::vector<DiagramPole>& diagram, const Cluster& cluster, 
   return static_cast<double>(both) <= share_beside * static_cast<double>(cluster.members.size());
 }
 
-/// Both clusters are found, beside each other, at the stated share of all orders.
+/// Whether both clusters have poles at the same orders, in the stated share of all orders.
 bool is_beside(const std::vector<DiagramPole>& diagram, const std::vector<int>& orders, const Cluster& cluster,
                const Cluster& other, const AutomaticRule& rule) {
   std::set<int> present;
@@ -219,8 +219,9 @@ bool is_beside(const std::vector<DiagramPole>& diagram, const std::vector<int>& 
   return static_cast<double>(both) >= rule.share_beside * static_cast<double>(orders.size());
 }
 
-/// A mode that a second cluster follows beside the first, nearer than half its bandwidth and of the same shape, is one mode.
-/// Two poles at nearly all orders, however, are two modes. @param clusters  the largest first
+/// Drops a cluster that repeats a larger one: nearer than half the bandwidth, with the same shape. Two such clusters with poles
+/// at most orders are two modes.
+/// @param clusters  the largest first
 std::vector<Cluster> distinct_clusters(const std::vector<DiagramPole>& diagram, const std::vector<int>& orders,
                                        std::vector<Cluster> clusters, const AutomaticRule& rule) {
   std::vector<Cluster> distinct;
@@ -286,7 +287,8 @@ std::vector<Cluster> automatic_clusters(std::vector<DiagramPole>& diagram, const
   std::vector<Members> groups;
   for (const Members& set : connected(diagram, candidates, cut))
     for (Members& group : agglomerate(diagram, set, cut)) groups.push_back(std::move(group));
-  // The largest first: a mode that fell apart is gathered by its larger part, and the rest is too small to count.
+  // The largest group first: if a mode has fallen apart, its larger part collects the poles, and the rest is too small to
+  // count.
   std::stable_sort(groups.begin(), groups.end(), [](const Members& a, const Members& b) { return a.size() > b.size(); });
   std::vector<Cluster> clusters;
   std::vector<bool> claimed(diagram.size(), false);

@@ -16,15 +16,14 @@ using std::numbers::pi;
 
 namespace {
 
-// Of a lag that is worth a warning.
-constexpr double kLagDeviations = 10.0;  // damped modes are complex by themselves, and look like a lag of six
-constexpr double kLagTurn_deg = 10.0;  // at the highest mode found; takes 3 % from the collinearity of a shape of two channels
+constexpr double kLagDeviations = 10.0;  // damped modes have complex shapes, which look like a lag of up to six deviations
+constexpr double kLagTurn_deg = 10.0;    // at the highest mode found; it lowers the collinearity of a two-channel shape by 3 %
 
 struct Phase {
-  double omega = 0.0, angle = 0.0, weight = 0.0;  ///< relative to the first channel; 1/variance
+  double omega = 0.0, angle = 0.0, weight = 0.0;  ///< angle relative to the first channel; weight 1/variance
 };
 
-/// Into [-pi/2, pi/2): a shape's sign does not count.
+/// Brings an angle into [-pi/2, pi/2), because the sign of a shape is arbitrary.
 double half_turn(double angle) { return angle - pi * std::round(angle / pi); }
 
 struct Lag {
@@ -56,7 +55,7 @@ std::optional<Lag> fitted(const std::vector<Phase>& phases) {
   double gradient = 0.0;
   for (const Phase& p : phases) gradient += p.weight * p.omega * half_turn(p.angle + p.omega * best);
   best -= gradient / information;
-  // Modes are a little complex by themselves: what the lag leaves counts too.
+  // Mode shapes are slightly complex, so the residual of the lag counts too.
   const double scatter = std::max(1.0, cost(best) / static_cast<double>(phases.size() - 1));
   return Lag{best, std::sqrt(scatter / information)};
 }

@@ -15,9 +15,9 @@ namespace twindeck::identification {
 /// into `conditioned.quality` (lag_s, lag_std_s); left unknown with fewer than two modes in which the channel takes part.
 void estimate_lags(Conditioned& conditioned, const Identification& found);
 
-/// A line that names the channels whose lag is no chance (ten deviations: dampers alone turn shapes by up to six) and matters
-/// (ten degrees at the highest mode found: shapes bend, and modes above may be missing).
-/// @param conditioned  with lags estimated @return empty where there is none
+/// A line that names the channels with a significant lag: ten deviations or more (dampers alone cause up to six), and ten
+/// degrees or more at the highest mode found. Such a lag distorts shapes, and modes above may be missing.
+/// @param conditioned  with lags estimated @return empty if there is none
 [[nodiscard]] std::string lag_warning(const Conditioned& conditioned, const Identification& found);
 
 }  // namespace twindeck::identification

@@ -113,14 +113,14 @@ Cluster summarise(const std::vector<DiagramPole>& diagram, std::vector<std::size
         (frequency[k] - cluster.frequency_Hz) / std::max(cluster.frequency_scatter_Hz, 1e-12 * cluster.frequency_Hz),
         (damping[k] - cluster.damping_ratio) / std::max(cluster.damping_ratio_scatter, 1e-12));
   };
-  // Two members lie at the same distance from their median: of equals the first represents, whatever rounding says.
+  // Two members are at equal distance from their median. The first one is the representative, independent of rounding.
   constexpr double kNearer = 1.0 - 1e-9;
   std::size_t nearest = 0;
   for (std::size_t k = 1; k < members.size(); ++k)
     if (distance(k) < kNearer * distance(nearest)) nearest = k;
   cluster.representative = members[nearest];
   const Eigen::VectorXcd& reference = diagram[cluster.representative].pole.shape;
-  // Component by component, so that one order at which the pole has split in two does not count.
+  // Median of each component, so that a single order with a split pole does not matter.
   std::vector<std::vector<double>> real(static_cast<std::size_t>(reference.size())), imag = real;
   for (const std::size_t i : members) {
     const Eigen::VectorXcd& shape = diagram[i].pole.shape;

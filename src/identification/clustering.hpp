@@ -7,7 +7,7 @@
 
 namespace twindeck::identification {
 
-/// The criteria of paper section 3.1, each against the model of the next smaller order.
+/// The criteria of stable poles, paper section 3.1, each against the model of the next smaller order.
 struct StabilisationCriteria {
   double frequency = 0.02;  ///< relative change below which a frequency is stable
   double damping = 0.01;    ///< change of the damping ratio [-], one percentage point, below which it is stable
@@ -24,7 +24,7 @@ struct PoleLimits {
 struct DiagramPole {
   Pole pole;
   bool stable_frequency = false, stable_damping = false, stable_shape = false;
-  int mode = -1;                  ///< position in the list of identified modes, -1 for none
+  int mode = -1;                  ///< position in the list of identified modes, -1 if the pole belongs to none
   double frequency_std_Hz = 0.0;  ///< from the data's covariance; 0 where that is unknown
   [[nodiscard]] bool stable() const { return stable_frequency && stable_damping && stable_shape; }
 };
@@ -51,7 +51,7 @@ struct Cluster {
   double damping_ratio = 0.0;         ///< median of the members
   double frequency_scatter_Hz = 0.0;  ///< standard deviation over the members
   double damping_ratio_scatter = 0.0;
-  Eigen::VectorXcd shape;  ///< median of the members' shapes, phases aligned, normalised
+  Eigen::VectorXcd shape;  ///< (n_outputs) median of the members' shapes, phases aligned, normalised
 };
 
 /// Index of recursion of each shape, paper Eqs. (3) and (4):  A_ij = 1 if MAC(v_i, v_j) >= 0.95, else 0;  C_i = sum_j A_ij.

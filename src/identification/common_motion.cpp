@@ -13,14 +13,13 @@ using Eigen::Index;
 
 namespace {
 
-constexpr Index kSegments = 60;      // of the shortest record, with half overlap: noise and motion part, lines stay narrow
-constexpr Index kLeastSegment = 64;  // samples: fewer blur modes and noise
-constexpr double kIndependentShare = 0.8;  // independent segments a segment of half overlap counts for (Welch: 9/11)
-/// [bytes] of cross spectra: sixteen channels get lines of 1/131,072 of the rate, 256 channels 1/512. The longest records of
-/// many channels would ask for more than there is memory.
+constexpr Index kSegments = 60;            // half-overlapping segments of the shortest record, which separate motion from noise
+constexpr Index kLeastSegment = 64;        // [samples] shorter segments do not resolve modes from noise
+constexpr double kIndependentShare = 0.8;  // independent segments per half-overlapping segment (Welch: 9/11)
+/// [bytes] Most memory for cross spectra. Sixteen channels get lines of 1/131,072 of the rate, 256 channels 1/512.
 constexpr Index kMostBytes = Index{256} << 20U;
-/// What counts is so far above the bound of noise: three tenths of it, or a quarter of the way to one common motion where few
-/// channels leave less room.
+/// Threshold above the bound of noise: three tenths of the bound or, with few channels, a quarter of the distance from the
+/// bound to one common motion.
 constexpr double kAbove = 0.3, kShareOfWay = 0.25;
 
 /// Cross spectra of all records, weighted by their segments.

@@ -16,8 +16,7 @@ namespace twindeck::identification {
 /// Reference for the bound: Marchenko and Pastur (1967), Mathematics of the USSR-Sbornik 1(4), 457-483.
 [[nodiscard]] double highest_common_Hz(const std::vector<Samples>& records, double rate_Hz);
 
-/// Samples of a segment of its spectra: some sixty segments of the record, but no more than 256 MB of spectra, which the
-/// longest records of many channels would exceed by far.
+/// Length of a segment of the spectra [samples]: about sixty segments in the record, but at most 256 MB of spectra.
 [[nodiscard]] Eigen::Index common_motion_segment(Eigen::Index n_samples, Eigen::Index n_channels);
 
 }  // namespace twindeck::identification

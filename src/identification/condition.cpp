@@ -33,7 +33,7 @@ std::vector<Index> positions(const ConditionResult& result, const std::vector<re
   return list;
 }
 
-/// Positions of the references that every setup has, in the list of all.
+/// Positions, in the list of all channels, of the references that every setup has.
 std::vector<Index> common_references(const ConditionResult& result) {
   std::vector<Index> common;
   for (const Index r : result.setups.front().conditioned.references) {
@@ -58,21 +58,21 @@ void list_channels(ConditionResult& result) {
       if (position_of(result.channels, channel.name) < 0) result.channels.push_back(channel);
 }
 
-/// Setups of two rates have no common lags.
+/// Whether all setups have one rate; setups of different rates have no common lags.
 bool is_one_rate(const ConditionResult& result) {
   return std::all_of(result.setups.begin(), result.setups.end(), [&](const SetupResult& setup) {
     return setup.conditioned.rate_Hz == result.setups.front().conditioned.rate_Hz;
   });
 }
 
-/// What PreGER divides the records by.
+/// Divisors of the records for PreGER.
 struct Scales {
   std::vector<double> level;  ///< of each setup: geometric mean of the RMS at the common references
   Eigen::VectorXd channels;   ///< (n_channels) geometric mean over the setups of a channel's RMS in units of their levels
 };
 
-/// One scale a channel in all setups, so that the references' rows stay those of one system. A setup's own level (wind,
-/// traffic, the gain of its recorder) is taken out before: it would weigh the channels of the others.
+/// One scale per channel, the same in all setups, so that the rows of the references stay those of one system. The level of
+/// each setup (wind, traffic, gain of the recorder) is removed first, because it would weigh the other setups' channels.
 Scales preger_scales(const ConditionResult& result, const std::vector<Index>& references) {
   const auto n_channels = static_cast<Index>(result.channels.size());
   Scales scales;
@@ -95,7 +95,7 @@ Scales preger_scales(const ConditionResult& result, const std::vector<Index>& re
   return scales;
 }
 
-/// PreGER of the same records. @param scale  of the channels, what a setup's records are divided by beside its level
+/// PreGER of the same records. @param scale  divisor of each channel, besides the level of the setup
 Identification preger(const ConditionResult& result, const std::vector<Index>& references, const IdentificationSettings& config,
                       Eigen::VectorXd& scale) {
   const auto n_channels = static_cast<Index>(result.channels.size());
@@ -118,7 +118,7 @@ Identification preger(const ConditionResult& result, const std::vector<Index>& r
     one.lags = blocks.mean();
     setups.push_back(std::move(one));
   }
-  // References alone must carry the orders.
+  // The references alone must suffice for the orders.
   std::vector<int> orders = options.orders();
   const auto most = static_cast<int>((config.block_rows - 1) * static_cast<Index>(references.size()));
   std::erase_if(orders, [&](int order) { return order > most; });
@@ -128,7 +128,7 @@ Identification preger(const ConditionResult& result, const std::vector<Index>& r
   return found;
 }
 
-/// Modes and their checks, ascending: frequencies of another merging may change the order.
+/// Sorts modes with their checks by frequency, because the other merging may change the order.
 void sort_by_frequency(ConditionResult& result) {
   std::vector<std::size_t> order(result.modes.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
@@ -153,7 +153,7 @@ void check_merging(ConditionResult& result, const std::vector<Index>& references
   sort_by_frequency(result);
 }
 
-/// The highest peak of the spectrum of a record as it is that lies above the usual band; 0 for none.
+/// The highest peak above the usual band in the spectrum of an undecimated record; 0 for none.
 double peak_above_band(const SetupResult& setup) {
   if (setup.conditioned.filtered || setup.singular.frequency_Hz.size() == 0) return 0.0;
   const double nyquist = 0.5 * setup.conditioned.rate_Hz;
@@ -162,9 +162,9 @@ double peak_above_band(const SetupResult& setup) {
   return peaks.empty() ? 0.0 : peaks.back();
 }
 
-/// Where the configuration leaves the band open, it ends where the sensors no longer move together. @return says so
+/// Ends a band that the configuration leaves open at the highest common motion of the sensors. @return a sentence about it
 std::string limit_band(SetupResult& setup) {
-  constexpr double kBeyond = 1.1;  // of the last common motion: the flank of a mode there
+  constexpr double kBeyond = 1.1;  // of the highest common motion, to include the flank of a mode there
   const double nyquist = 0.5 * setup.conditioned.rate_Hz, peak = peak_above_band(setup);
   const double widest = (peak > 0.0 ? 1.0 : kFilteredBand) * nyquist;
   const double common = highest_common_Hz(setup.conditioned.records, setup.conditioned.rate_Hz);
@@ -182,7 +182,7 @@ std::string limit_band(SetupResult& setup) {
                      setup.conditioned.setup, setup.limits.highest_Hz, why);
 }
 
-/// The records of one setup with the limits that they carry.
+/// Reads the records of one setup and lowers the limits that they are too short for.
 SetupResult read_setup(const records::Campaign& campaign, const records::RecordGroup& group,
                        const IdentificationSettings& config, Reporter& reporter) {
   SetupResult setup;
@@ -270,7 +270,6 @@ void identify_condition(ConditionResult& result, const IdentificationSettings& c
         result.setups, [](const SetupResult& a, const SetupResult& b) { return a.limits.block_rows < b.limits.block_rows; });
     check_merging(result, common_references(result), fewest->limits);
   }
-  // Modes that a person picked stay as they are.
   if (config.choices.empty())
     for (const std::string& line : merge_modes_that_are_one(result)) reporter.warn(line);
   for (const std::string& doubt : doubts_of(result)) reporter.warn(doubt);

@@ -13,7 +13,7 @@ namespace twindeck::identification {
 /// One setup of a condition, identified.
 struct SetupResult {
   Conditioned conditioned;
-  IdentificationSettings limits;  ///< the configuration as far as its records carry it
+  IdentificationSettings limits;  ///< the configuration, with limits lowered to the length of the records
   Identification found;
   signal::PowerSpectra spectra;
   SingularSpectra singular;
@@ -29,11 +29,11 @@ struct ConditionResult {
   bool of_decays = false;            ///< ERA's modes of free decays (decays.hpp): no spectra
 };
 
-/// The records of each setup made ready, none identified yet. A setup whose records cannot be used is left out with a warning,
-/// as long as another is left.
+/// Reads the records of each setup and prepares them; nothing is identified yet. A setup whose records cannot be used is left
+/// out with a warning, as long as another is left.
 /// @param groups  of one condition
 /// @throws InputError  as condition_records; without a common reference, or for setups of two rates that are to be merged
-/// before identification @throws UnusableRecord  if no setup is left
+///         before identification @throws UnusableRecord  if no setup is left
 [[nodiscard]] ConditionResult read_condition(const records::Campaign& campaign, const std::vector<records::RecordGroup>& groups,
                                              const IdentificationSettings& config, Reporter& reporter);
 
@@ -41,9 +41,9 @@ struct ConditionResult {
 /// @throws InputError  without a common reference of several setups
 void merge_setups(ConditionResult& result);
 
-/// Identifies each setup and merges them, before identification only setups of one rate (two rates have no common lags); warns
-/// of clocks that lag. With merge = "preger" a mode's shape, frequency and damping are PreGER's where it has the mode, with
-/// deviations that hold the difference of both mergings (take_preger).
+/// Identifies each setup, merges the setups, and warns of clocks that lag. Merging before identification needs setups of one
+/// rate. With merge = "preger", the shape, frequency and damping of a mode are PreGER's if PreGER has the mode; the deviations
+/// then include the difference of both mergings (take_preger).
 /// @param result  as read_condition gives it
 void identify_condition(ConditionResult& result, const IdentificationSettings& config, Reporter& reporter);
 

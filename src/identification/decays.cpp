@@ -29,7 +29,7 @@ void read_by_amplitude(DecayResult& result, const Eigen::MatrixXd& decay, double
                        const IdentificationSettings& config, const ConditionResult* ambient) {
   for (std::size_t m = 0; m < result.found.modes.size(); ++m) {
     const Cluster& mode = result.found.modes[m];
-    // Neighbours closer than the filter can tell apart beat in its band.
+    // Modes closer than the filter can separate would beat in its band.
     const bool alone = std::all_of(result.found.modes.begin(), result.found.modes.end(), [&](const Cluster& other) {
       return &other == &mode || std::abs(other.frequency_Hz - mode.frequency_Hz) > 1.5 * config.decay_band_Hz;
     });
@@ -68,9 +68,9 @@ Index release_sample(const Samples& data, double rate_Hz) {
   return best;
 }
 
-/// Samples until the motion is down to three times what is left at the end; all where it does not come to rest.
+/// Number of samples until the motion has fallen to three times its final RMS; all samples if it does not come to rest.
 Index decaying_samples(const Eigen::MatrixXd& decay) {
-  constexpr double kAboveTheRest = 9.0;  // of the mean square at the end
+  constexpr double kAboveTheRest = 9.0;  // mean square over that at the end
   constexpr Index kWindows = 50;
   const Eigen::VectorXd energy = energy_of(decay);
   const Index window = energy.size() / kWindows;
@@ -82,9 +82,10 @@ Index decaying_samples(const Eigen::MatrixXd& decay) {
   return end == 0 || 10 * end > 9 * energy.size() ? energy.size() : end;
 }
 
-/// Samples that are read of each decay, which all begin at the release, and the limits that they carry.
+/// Number of samples to read of each decay. All decays begin at the release. Lowers the limits that this length is too short
+/// for.
 Index length_of(const std::vector<Eigen::MatrixXd>& decays, double rate_Hz, IdentificationSettings& own, std::string& note) {
-  constexpr Index kMostEntries = 600'000;  // of the Hankel matrix, whose draws take most of the time
+  constexpr Index kMostEntries = 600'000;  // of the Hankel matrix; its random draws take most of the time
   const Index channels = decays.front().cols();
   Index length = decays.front().rows(), decaying = 0;
   for (const Eigen::MatrixXd& decay : decays) {
@@ -106,10 +107,9 @@ Index length_of(const std::vector<Eigen::MatrixXd>& decays, double rate_Hz, Iden
   return length;
 }
 
-/// Upper end [Hz] of a band that the configuration leaves open. Above the motion's reach the filter colours noise, which then
-/// has poles.
+/// Upper end [Hz] of a band that the configuration leaves open. Above the motion's reach, filtered noise would give poles.
 double band_end(const Conditioned& decay) {
-  constexpr double kBeyond = 1.1;  // of the reach: the flank of a mode there
+  constexpr double kBeyond = 1.1;  // of the reach, to include the flank of a mode there
   const double widest = kFilteredBand * 0.5 * decay.rate_Hz;
   return decay.reach_Hz > 0.0 ? std::min(kBeyond * decay.reach_Hz, widest) : widest;
 }
@@ -150,7 +150,7 @@ std::vector<ConditionResult> decay_conditions(std::vector<DecayResult>& decays) 
     ConditionResult& result = *std::find_if(results.begin(), results.end(), [&](const auto& r) { return r.condition == name; });
     SetupResult& setup = result.setups.emplace_back();
     static_cast<ConditionedInfo&>(setup.conditioned) = decay.conditioned;
-    setup.conditioned.quality.clear();  // stays with the decay
+    setup.conditioned.quality.clear();  // the quality stays with the decay
     setup.found = decay.found;
   }
   for (ConditionResult& result : results) merge_setups(result);
@@ -186,7 +186,7 @@ std::vector<DecayResult> identify_free_decays(const std::vector<Conditioned>& re
       result.note = fmt::format("setup {}: a free decay of {} samples is too short for all limits: {}", conditioned.setup,
                                 length, result.note.substr(2));
     for (const Eigen::MatrixXd& decay : whole) pieces.emplace_back(decay.topRows(length) * scale.cwiseInverse().asDiagonal());
-    // The last half of a record that is long enough shows what moves the bridge when the decay is over.
+    // In a record of sufficient length, the last half shows the disturbance after the decay.
     for (const Eigen::MatrixXd& decay : whole) {
       if (decay.rows() >= 2 * length) {
         const Eigen::MatrixXd rest = decay.bottomRows(decay.rows() / 2) * scale.cwiseInverse().asDiagonal();
@@ -218,7 +218,7 @@ std::vector<AmbientAmplitude> ambient_amplitudes(const std::vector<ConditionResu
       const Cluster& own = setup.found.modes[mode.members.front().second];
       double squares = 0.0, seconds = 0.0;
       for (const Samples& record : setup.conditioned.records) {
-        // Wide enough for the mode's half-power band, no wider than the filter of the decays.
+        // The filter is wide enough for the mode's half-power band, and no wider than that of the decays.
         const double half_width = std::max(0.25 * config.decay_band_Hz, 2.0 * mode.damping_ratio * mode.frequency_Hz);
         const Eigen::VectorXcd q =
             modal_coordinate(record, setup.conditioned.rate_Hz, own.shape, mode.frequency_Hz, half_width);

@@ -14,34 +14,34 @@ namespace twindeck::identification {
 struct DecayResult {
   ConditionedInfo conditioned;
   Identification found;  ///< ERA
-  std::string note;      ///< limits that the records do not carry; empty for none
+  std::string note;      ///< limits that were lowered because the records are short; empty for none
   /// A mode's frequency and damping by amplitude.
   struct ByAmplitude {
-    std::string mode;  ///< of the condition's modes.csv, empty where it has none
+    std::string mode;  ///< name in the condition's modes.csv, empty if the mode is not there
     std::string record;
-    std::size_t found = 0;  ///< position of the mode among `found`, whose frequency the filter was set to
+    std::size_t found = 0;  ///< position among the modes of `found`; its frequency sets the filter
     std::vector<AmplitudePoint> points;
   };
   std::vector<ByAmplitude> by_amplitude;
 };
 
-/// A mode of the ambient records that a mode of a free decay agrees with.
+/// The mode of the ambient records that a mode of a free decay corresponds to.
 struct AmbientPartner {
   std::size_t mode = 0;  ///< position among the condition's modes
   double mac = 0.0;      ///< over the channels that both have
 };
-/// The ambient mode of the same condition nearest in shape (MAC above 0.8) within 10 % in frequency.
+/// Finds the ambient mode of the same condition with the nearest shape, MAC above 0.8 and frequency within 10 %.
 /// @param channels  of the shape  @param ambient  null for a condition without ambient records
 [[nodiscard]] std::optional<AmbientPartner> partner_of(const Cluster& mode,
                                                        const std::vector<records::CampaignChannel>& channels,
                                                        const ConditionResult* ambient);
-/// Null for a name that none has.
+/// The condition of that name; null if there is none.
 [[nodiscard]] const ConditionResult* condition_named(const std::vector<ConditionResult>& results, const std::string& name);
 /// Quantity of the channel with the shape's largest component.
 [[nodiscard]] std::string quantity_at_largest(const std::vector<records::CampaignChannel>& channels,
                                               const Eigen::VectorXcd& shape);
 
-/// How large a mode's motion is in the ambient records of the first setup that has it.
+/// Motion of a mode in the ambient records of the first setup that has it.
 struct AmbientAmplitude {
   std::string condition, setup;
   std::size_t mode = 0;    ///< position among the condition's modes
@@ -52,8 +52,8 @@ struct AmbientAmplitude {
 [[nodiscard]] std::vector<AmbientAmplitude> ambient_amplitudes(const std::vector<ConditionResult>& results,
                                                                const IdentificationSettings& config);
 
-/// The decays as the main result of their conditions, where there are no ambient records: ERA's modes, setups merged. Names the
-/// modes in `by_amplitude`. Spectra stay empty: a decay has none that hangs not on its length.
+/// Makes the decays the main result of their conditions, if there are no ambient records: modes of ERA, setups merged. Names
+/// the modes in `by_amplitude`. Spectra stay empty, because the spectrum of a decay depends on its length.
 [[nodiscard]] std::vector<ConditionResult> decay_conditions(std::vector<DecayResult>& decays);
 
 /// ERA of the records of kind free_decay, and frequency and damping by amplitude of the modes that it finds.

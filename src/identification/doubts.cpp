@@ -13,11 +13,12 @@ namespace twindeck::identification {
 
 namespace {
 
-constexpr double kPeriodsOfABlock = 2.0;  ///< [-] a shorter block bends frequency and damping
-/// [-] factor between a damping ratio and the median of all modes that needs a look, and standard deviations beyond it.
+constexpr double kPeriodsOfABlock = 2.0;  ///< [-] least periods in a block; a shorter block biases frequency and damping
+/// [-] factor between a damping ratio and the median of all modes above which a mode is named, and standard deviations by which
+/// it must be exceeded
 constexpr double kFarDamping = 4.0, kSure = 3.0;
-constexpr std::size_t kFewestModes = 4;  ///< [-] fewer have no usual damping
-constexpr double kNearPeak = 0.03;       ///< [-] of the frequency
+constexpr std::size_t kFewestModes = 4;  ///< [-] the median of fewer damping ratios means little
+constexpr double kNearPeak = 0.03;       ///< [-] of the frequency, between a peak and a mode
 constexpr std::size_t kMostPeaks = 3;    ///< named
 
 void short_blocks(const ConditionResult& result, std::vector<std::string>& doubts) {

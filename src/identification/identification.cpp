@@ -32,7 +32,6 @@ void require_known(const std::vector<std::string>& asked, const std::vector<std:
                        "name its columns");
 }
 
-/// Columns that are used: responses that are not left out.
 std::vector<Index> used_columns(const records::Campaign& campaign, const records::CampaignRecord& record,
                                 const IdentificationSettings& config) {
   require_known(config.exclude, record.channels, "exclude");
@@ -44,7 +43,7 @@ std::vector<Index> used_columns(const records::Campaign& campaign, const records
     throw InputError({(campaign.folder / "channels.csv").string(), 0, "role"}, "no channel of the record is a response",
                      "give one at least the role response");
   if (columns.empty()) throw InputError({"", 0, "exclude"}, "leaves no response channel", "leave out fewer");
-  constexpr std::size_t most = 500;  // whose cross spectra take 4 GB; of 5,000 they would take 400 GB
+  constexpr std::size_t most = 500;  // channels; cross spectra of 500 channels take 4 GB, those of 5,000 would take 400 GB
   if (columns.size() > most)
     throw InputError(
         {(campaign.folder / "campaign.toml").string(), record.line_of("channels"), "channels"},
@@ -96,7 +95,7 @@ void refuse_lone(const ChannelQuality& q, double largest, const std::string& wit
                   without, 1.1 * q.lone->deviations));
 }
 
-/// Channels that are used must move, within their range, and without errors of the recorder. A force may be a single blow.
+/// Refuses used channels that do not move, are clipped, or have errors of the recorder. A force may be a single blow.
 void refuse_unusable(const std::vector<ChannelQuality>& quality, const std::vector<records::CampaignChannel>& used,
                      const IdentificationSettings& config) {
   for (const ChannelQuality& q : quality) {
@@ -112,7 +111,6 @@ void refuse_unusable(const std::vector<ChannelQuality>& quality, const std::vect
   }
 }
 
-/// The responses that are used, for judge_channels.
 JudgedChannels judged_channels(const std::vector<Index>& columns, const Conditioned& conditioned,
                                const records::CampaignRecord& record) {
   JudgedChannels judged{columns, {}, {}, record.kind == "free_decay" || record.kind == "earthquake"};
@@ -123,7 +121,7 @@ JudgedChannels judged_channels(const std::vector<Index>& columns, const Conditio
   return judged;
 }
 
-/// Samples that the setup has twice would count as two measurements.
+/// Refuses samples that the setup has twice: they would count as two measurements.
 void refuse_repeats(const Samples& raw, const records::CampaignRecord& record, RowsSeen& seen) {
   const auto twice = seen.add(raw, record.file.string());
   if (!twice) return;
@@ -139,7 +137,7 @@ void refuse_repeats(const Samples& raw, const records::CampaignRecord& record, R
                                twice->again + twice->length - 1));
 }
 
-/// As condition_records, with all channels that are not excluded.
+/// Does the work of condition_records with all channels that are not excluded.
 Conditioned condition_with(const records::Campaign& campaign, const records::RecordGroup& group,
                            const IdentificationSettings& config) {
   const auto decimation = static_cast<Index>(std::max(config.decimation, 1L));
@@ -160,8 +158,8 @@ Conditioned condition_with(const records::Campaign& campaign, const records::Rec
     conditioned.inputs.push_back(campaign.channel(input_names.back()));
   }
   choose_references(conditioned, config.references);
-  static_cast<void>(config.options(conditioned.rate_Hz, conditioned.channels));  // refuses a band beyond the records'
-  // Channel by channel, so that beside the record one channel more lies in memory.
+  static_cast<void>(config.options(conditioned.rate_Hz, conditioned.channels));  // refuses a band above that of the records
+  // Channels are prepared one by one, so that memory holds the record and only one channel more.
   const auto ready = [&](const Samples& raw, const std::vector<Index>& chosen, const std::vector<std::string>& called,
                          const std::string& file) {
     Samples out;
@@ -206,7 +204,7 @@ Conditioned condition_with(const records::Campaign& campaign, const records::Rec
 Conditioned condition_records(const records::Campaign& campaign, const records::RecordGroup& group,
                               const IdentificationSettings& config) {
   IdentificationSettings without = config;
-  std::map<std::string, std::string> reasons;  // of the channels that are left out
+  std::map<std::string, std::string> reasons;  // why channels are left out
   std::optional<LyingChannel> first;
   for (;;) {
     try {
@@ -270,7 +268,7 @@ void to_physical_shapes(Identification& found, const std::vector<records::Campai
     const double norm = physical.norm();
     mode.shape = normalised_shape(physical);
     if (m >= found.deviations.size()) continue;
-    // The turn by 0, 90 or 180 degrees between quantities mixes real and imaginary parts: the larger of both holds for either.
+    // A turn by 0, 90 or 180 degrees between quantities mixes real and imaginary parts. The larger deviation is used for both.
     ModeDeviation& deviation = found.deviations[m];
     const Eigen::VectorXd magnitude = factor.cwiseAbs() / norm;
     if ((factor.imag().array() != 0.0).any())
@@ -295,7 +293,7 @@ Identification identify_ambient(const std::vector<Samples>& scaled, const Condit
 
 Identification identify_modes(const Conditioned& conditioned, const IdentificationSettings& config) {
   const IdentifyOptions options = config.options(conditioned.rate_Hz, conditioned.channels);
-  // Channels on one scale, so that a large or a distant one does not hide the others and units do not matter.
+  // All channels get the same RMS, so that a large one hides no other and units do not matter.
   const Eigen::VectorXd scale = channel_rms(conditioned.records);
   std::vector<Samples> scaled;
   for (const Samples& record : conditioned.records) scaled.push_back(scaled_channels(record, scale.cwiseInverse()));
@@ -316,7 +314,7 @@ Identification identify_modes(const Conditioned& conditioned, const Identificati
   if (options.selection == Selection::automatic && conditioned.excitation.empty()) {
     mark_periodic(found, scaled, conditioned.rate_Hz, options.periodic);
     if (!found.periodic.empty()) {
-      // A line beside a mode pulls the mode's poles to itself at small orders: once more, without the lines.
+      // At small orders, a line pulls the poles of a near mode to itself. The records are identified again without the lines.
       const std::vector<PeriodicLine> lines = without_lines(
           scaled, found.periodic, conditioned.rate_Hz, options.limits.lowest_Hz, options.limits.highest_Hz, options.periodic);
       found = identify_ambient(scaled, conditioned, config, options);
@@ -325,7 +323,7 @@ Identification identify_modes(const Conditioned& conditioned, const Identificati
       if (nothing_is_left) keep_modes(found, std::vector<bool>(found.modes.size(), false));
     }
   } else {
-    found.periodic.clear();  // candidates that nobody judged
+    found.periodic.clear();  // candidates that were not tested
   }
   to_physical_shapes(found, conditioned.channels, scale);
   return found;

@@ -16,49 +16,49 @@
 /// channels.
 namespace twindeck::identification {
 
-/// What is known of the records of one setup and condition, without their samples.
+/// Data about the records of one setup and condition, without their samples.
 struct ConditionedInfo {
   std::vector<records::CampaignChannel> channels;  ///< response columns that are used
   std::vector<records::CampaignChannel> inputs;    ///< input columns
   std::vector<Eigen::Index> references;            ///< positions among channels
   double rate_Hz = 0.0;                            ///< after decimation
-  double reach_Hz = 0.0;                           ///< of free decays: how far their motion reaches; 0: not known
-  bool filtered = false;                           ///< decimation took out what lies above 0.8 of the Nyquist frequency
-  long block_rows = 0;  ///< that the records are identified with: as configured, or chosen (sampling.hpp)
+  double reach_Hz = 0.0;                           ///< highest frequency of the motion of free decays; 0: not known
+  bool filtered = false;                           ///< decimation removed everything above 0.8 of the Nyquist frequency
+  long block_rows = 0;                             ///< as configured, or chosen (sampling.hpp)
   std::string setup, condition;
   std::vector<std::string> files;       ///< one a record, relative to the campaign's folder
   std::vector<ChannelQuality> quality;  ///< of the records as read, every channel
-  std::vector<std::string> notes;       ///< what the user should know of how the records were read
+  std::vector<std::string> notes;       ///< notes for the user on how the records were read
 };
 
-/// Records of one setup and condition made ready for identification.
+/// Records of one setup and condition, prepared for identification.
 struct Conditioned : ConditionedInfo {
   std::vector<Samples> records;       ///< detrended, decimated, SI units
   std::vector<Samples> excitation;    ///< of the inputs, one a record
   std::vector<std::string> warnings;  ///< channels that are left out, and why
 };
 
-/// Reads, judges, repairs as asked, detrends and decimates, by a factor that is chosen where the configuration has 0. A record
-/// that cannot be used is left out with a note, as long as another of the group is left. A channel that is dead, stuck or a
-/// copy in all of them (judge_channels) is left out with a warning, unless it is a reference or the only response.
+/// Reads the records, judges the channels, fills gaps if asked, detrends and decimates. The factor of decimation is chosen if
+/// the configuration has 0. A record that cannot be used is left out with a note, as long as another of the group is left. A
+/// channel that is dead, stuck or a copy in all of them (judge_channels) is left out with a warning, unless it is a reference
+/// or the only response.
 /// @throws UnusableRecord  if none is left: a gap that is not to be filled, a dead or clipped channel
-/// @throws InputError  for two records of the same samples, an unknown reference, no response channel, a band beyond the
-/// records'
+/// @throws InputError  for two records of the same samples, an unknown reference, no response channel, a band above that of the
+///         records
 [[nodiscard]] Conditioned condition_records(const records::Campaign& campaign, const records::RecordGroup& group,
                                             const IdentificationSettings& config);
 
 /// Identification of one setup by the method asked for: covariance-driven or data-driven of responses alone, input-output where
-/// the group has measured inputs. Records are pooled. Shapes are brought to the first channel's quantity: with lambda the pole,
-/// a velocity is lambda times a displacement.
+/// the group has measured inputs. Records are pooled. Shapes are converted to the quantity of the first channel: with lambda
+/// the pole, a velocity is lambda times a displacement.
 /// @throws InputError  if the records are too short or the orders too large
 [[nodiscard]] Identification identify_modes(const Conditioned& conditioned, const IdentificationSettings& config);
 
-/// A shape over scaled channels (value = recorded / scale) as a physical one of the first channel's quantity, unit norm.
+/// Converts a shape of scaled channels (value = recorded / scale) to the first channel's quantity, with unit norm.
 [[nodiscard]] Eigen::VectorXcd physical_shape(const Eigen::VectorXcd& shape,
                                               const std::vector<records::CampaignChannel>& channels,
                                               const Eigen::VectorXd& scale, double frequency_Hz, double damping_ratio);
-/// Brings shapes of scaled channels (value = recorded / scale) to physical ones of the first channel's quantity, deviations
-/// with them.
+/// Converts shapes of scaled channels (value = recorded / scale) and their deviations to the first channel's quantity.
 void to_physical_shapes(Identification& found, const std::vector<records::CampaignChannel>& channels,
                         const Eigen::VectorXd& scale);
 

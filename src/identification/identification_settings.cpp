@@ -28,7 +28,7 @@ IdentifyOptions IdentificationSettings::options(double rate_Hz, const std::vecto
   IdentifyOptions options;
   options.block_rows = block_rows;
   options.minimum_order =
-      static_cast<int>(std::min(minimum_order, maximum_order));  // free decays and stays have maxima of their own
+      static_cast<int>(std::min(minimum_order, maximum_order));  // free decays and stays have other maximum orders
   options.maximum_order = static_cast<int>(maximum_order);
   options.order_step = static_cast<int>(order_step);
   options.criteria = criteria;

@@ -17,13 +17,13 @@ struct StaySettings {
   double mass_kg_m = 0.0;               ///< wanted with EI
 };
 
-/// What a person decided on a pole of the stabilisation diagram.
+/// Decision of a person on a pole of the stabilisation diagram.
 struct ModeChoice {
   std::string setup;
   int order = 0;
   double frequency_Hz = 0.0, damping_ratio = 0.0;
   bool keep = true;  ///< false: its mode is deleted
-  std::string file;  ///< where the choice stands
+  std::string file;  ///< file and line of the choice
   long line = 0;
 };
 
@@ -32,12 +32,12 @@ struct IdentificationSettings {
   std::string setup, condition, kind = "ambient", method = "covariance", selection = "automatic", merge = "poser";
   std::vector<std::string> setups, references, exclude;
   long decimation = 1, block_rows = 30, minimum_order = 2, maximum_order = 60, order_step = 2, blocks = 20, longest_gap = 0;
-  bool order_is_default = false;  ///< maximum_order was not asked for: it follows what the records carry
+  bool order_is_default = false;  ///< true: maximum_order was not configured and may be lowered to what the records allow
   long welch_segment = 2048;
   double largest_clipping = 1e-3;
   double largest_lone = 50.0;  ///< [-] robust deviations
   double lowest_Hz = 0.0;
-  double highest_Hz = 0.0;  ///< 0: left open, at most 0.8 of the Nyquist frequency after decimation, the filter's passband
+  double highest_Hz = 0.0;  ///< 0: chosen, at most 0.8 of the Nyquist frequency after decimation
   StabilisationCriteria criteria;
   double largest_damping = 0.20;
   double largest_deviation = 0.01, largest_law_ratio = 10.0, largest_shape_deviation = 0.6;
@@ -52,7 +52,7 @@ struct IdentificationSettings {
   long stay_decimation = 4, stay_block_rows = 100, stay_maximum_order = 40, stay_harmonics = 16;
   double stay_lowest_Hz = 0.0, stay_highest_Hz = 0.0, stay_level = 0.95;
   std::vector<StaySettings> stays;
-  std::vector<ModeChoice> choices;  ///< of modes by hand
+  std::vector<ModeChoice> choices;  ///< of modes by a person
 
   /// Settings of the subspace identification for records of this rate (after decimation) and these responses.
   [[nodiscard]] IdentifyOptions options(double rate_Hz, const std::vector<records::CampaignChannel>& channels) const;

@@ -13,11 +13,12 @@ namespace twindeck::identification {
 
 namespace {
 
-/// A deviation within this many times the least one of a record of this length says nothing against a mode: records of few
-/// cycles leave every mode so, and deviations from few blocks are themselves known to a third.
+/// [-] A deviation within this many times the lower limit for the record's length does not speak against a mode. In a record of
+/// few cycles all modes have such deviations, and deviations from few blocks are uncertain by a third.
 constexpr double kNearLaw = 3.0;
 
-/// Standard deviation of a unit-norm shape across itself: its scale and phase are free. 0 where the covariance is unknown.
+/// Standard deviation of a unit-norm shape, without the part along the shape itself, whose scale and phase are free. 0 if the
+/// covariance is unknown.
 double shape_deviation(const Cluster& mode, const ModeDeviation& deviation) {
   const Eigen::Index n = mode.shape.size();
   if (deviation.factor.rows() < 2 + 2 * n) return 0.0;
@@ -29,15 +30,16 @@ double shape_deviation(const Cluster& mode, const ModeDeviation& deviation) {
   return changes.norm();
 }
 
-/// Under random forces that stay alike, as the law of least deviation assumes.
+/// Whether the forces are random and stationary, as the lower limit of the deviation assumes.
 bool is_stationary(const IdentifyOptions& options, double seconds) { return seconds > 0.0 && options.largest_law_ratio > 0.0; }
 
-/// Phases that are arbitrary, and a shape that is not known well enough for them to be its own. A real shape with the deviation
-/// s has some s²/2 of its energy out of phase by chance, and 98 % have at most four times that; a collinearity c is a share of
-/// (1 - sqrt(c))/2. What the deviation cannot explain is the structure's own motion, as with dampers.
+/// Whether the phases of a shape are arbitrary and may be so by its uncertainty. A real shape with the deviation s has on
+/// average s²/2 of its energy out of phase; 98 % of shapes have at most four times as much. A collinearity c means the share (1
+/// - sqrt(c))/2. A larger share belongs to the structure, as with dampers.
 bool has_arbitrary_phases(const Cluster& mode, const ModeDeviation& deviation, const AutomaticRule& rule) {
   constexpr double kChance = 4.0;
-  // Of the poles' limit: nearer to it lie modes of a bridge with dampers that one record knows badly and another well.
+  // Part of the least collinearity. Just below that limit are modes of bridges with dampers, which some records determine well
+  // and others badly.
   constexpr double kBelow = 0.8;
   if (phase_collinearity(one_quantity(mode.shape, rule.derivatives)) >= kBelow * rule.collinearity) return false;
   const double out_of_phase = (1.0 - std::sqrt(rule.collinearity)) / 2.0;
@@ -48,10 +50,10 @@ bool is_settled(const Cluster& mode, const ModeDeviation& deviation, const Ident
   const double f = mode.frequency_Hz, zeta = std::max(mode.damping_ratio, 1e-6), relative = deviation.frequency_Hz / f;
   if (options.selection == Selection::paper) return options.largest_deviation <= 0.0 || relative <= options.largest_deviation;
   const double share = options.largest_bandwidth_share;
-  // A decay whose damping may be none is not known to decay: noise has such poles, well known in frequency by chance.
+  // A decay whose damping may be zero is not accepted: noise has such poles, by chance with a small deviation of frequency.
   if (seconds <= 0.0) return share <= 0.0 || (deviation.frequency_Hz <= share * zeta * f && deviation.damping_ratio <= zeta);
   if (options.largest_law_ratio <= 0.0) return true;
-  // In relation to the half bandwidth and to the damping ratio itself, the least deviation is the same number.
+  // The lower limit relative to the half bandwidth equals that of the damping ratio relative to itself.
   const double law = std::sqrt(1.0 / (2.0 * std::numbers::pi * f * zeta * seconds)), short_record = kNearLaw * law;
   const double frequency = relative / zeta, damping = deviation.damping_ratio / zeta;
   if (options.largest_deviation > 0.0 && relative > std::max(options.largest_deviation, short_record * zeta)) return false;
@@ -61,13 +63,12 @@ bool is_settled(const Cluster& mode, const ModeDeviation& deviation, const Ident
          damping <= std::max(1.0, short_record);
 }
 
-/// Another mode, better settled, that this one can't be told from: frequencies within three standard deviations, and shapes no
-/// further apart than one expects of one shape with the deviations of both. To first order 1 - MAC of two estimates of one
-/// shape has the mean s1² + s2², s their deviations across it.
+/// Whether a mode cannot be distinguished from another one with a smaller deviation: frequencies within three standard
+/// deviations, and shapes as near as two estimates of one shape. To first order, their 1 - MAC has the mean s1² + s2², with the
+/// deviations s of the shapes.
 bool is_shadow(const Identification& found, std::size_t m, bool stationary) {
-  constexpr double kShapeFloor = 0.02;  // of 1 - MAC: what deviations from few blocks and the choice of an order leave out
-  constexpr double kDecayFloor =
-      0.2;  // the same of decays and earthquakes: deviations leave out that modes change with amplitude
+  constexpr double kShapeFloor = 0.02;  // of 1 - MAC: errors that are not in deviations from few blocks and one order
+  constexpr double kDecayFloor = 0.2;   // the same for decays and earthquakes, where modes also change with amplitude
   const double floor = stationary ? kShapeFloor : kDecayFloor;
   for (std::size_t k = 0; k < found.modes.size(); ++k) {
     const ModeDeviation &mine = found.deviations[m], &other = found.deviations[k];
@@ -80,8 +81,8 @@ bool is_shadow(const Identification& found, std::size_t m, bool stationary) {
   return false;
 }
 
-/// A mode that has lost poles is asked once more whether it is a mixture: they may have hidden it. Only modes that the records
-/// settle can be what it is made of, not a chain of noise beside it that has its shape.
+/// Checks modes that have lost poles once more for mixtures, which the lost poles may have hidden. Only modes that the records
+/// determine count as parts of a mixture.
 void drop_hidden_mixtures(Identification& result, const AutomaticRule& rule) {
   std::vector<bool> stays = mixtures(result.diagram, result.modes, rule, 0.0);
   for (std::size_t m = 0; m < stays.size(); ++m) {
@@ -135,7 +136,7 @@ void drop_noise_of_a_decay(Identification& result, Eigen::Index samples) {
 }
 
 void drop_better_than_random(Identification& result, double seconds) {
-  constexpr double kChance = 3.0;  // standard deviations of a deviation from n blocks, 1/sqrt(2 (n - 1)) of it each
+  constexpr double kChance = 3.0;  // standard deviations of a deviation from n blocks, each 1/sqrt(2 (n - 1)) of it
   std::vector<bool> stays;
   for (std::size_t m = 0; m < result.modes.size(); ++m) {
     const Cluster& mode = result.modes[m];
@@ -156,11 +157,11 @@ Identification select(const ShiftModels& models, const IdentifyOptions& options)
   return result;
 }
 
-/// The pole has a twin: another one of its order with the same shape, whose frequency the data cannot tell from its own. The
-/// order has a pole too many there, and either half of the split mode takes what it lacks from the other one.
+/// Whether the pole has a twin: another pole of its order with the same shape and, by the data, the same frequency. Then the
+/// order has one pole too many, and the mode is split in two halves.
 bool has_twin(const Identification& result, const ShiftModels& models, const PoleFactors& factors, std::size_t i) {
   constexpr double kStableShape = 0.95;  // MAC of a stable shape, paper section 3.1
-  constexpr double kChance = 3.0;        // standard deviations of the difference
+  constexpr double kChance = 3.0;        // [standard deviations] of the difference
   const Pole& pole = result.diagram[i].pole;
   return std::any_of(result.diagram.begin(), result.diagram.end(), [&](const DiagramPole& other) {
     const Pole& twin = other.pole;
@@ -169,16 +170,16 @@ bool has_twin(const Identification& result, const ShiftModels& models, const Pol
   });
 }
 
-/// Twice the lower quartile of deviations: poles that are known worse do not speak for their mode.
+/// Twice the lower quartile of the deviations. Poles with larger ones are dropped from their mode.
 double largest_well_known(std::vector<double> deviations) {
   std::sort(deviations.begin(), deviations.end());
   return 2.0 * deviations[deviations.size() / 4];
 }
 
-/// Orders at which a pole has split in two know either half badly and do not speak for the mode. Where most orders are split
-/// the quartile itself is that of halves, and the orders that have the pole whole stand for it: two poles that differ by no
-/// more than chance are one more than the data support. That may be a single order: that of the true number of modes, for the
-/// mode that appears last. Not so of free decays: what their deviations leave out shows in the scatter over orders only.
+/// Keeps the members of each mode that are known well. At an order where the pole has split in two, both halves have large
+/// deviations and are dropped. If most orders are split, the quartile itself is that of halves; then the orders with an unsplit
+/// pole count. This may be a single order, if the mode appears at the last order only. It does not hold for free decays: their
+/// deviations are too small, and only the scatter over the orders shows the true ones.
 void keep_well_known(Identification& result, const ShiftModels& models, const PoleFactors& factors, bool stationary) {
   for (Cluster& mode : result.modes) {
     std::vector<double> deviations, whole;
@@ -199,8 +200,8 @@ void keep_well_known(Identification& result, const ShiftModels& models, const Po
   }
 }
 
-/// The covariance says how far the records settle a pole of one order; which order it is, nobody knows. A pole that holds a
-/// share of a weak neighbour moves with the order, by more than its covariance where the neighbour lies within the bandwidth.
+/// Adds the scatter over the orders to the deviations. The covariance holds for the pole of one order only. If a pole is mixed
+/// with a weak neighbour within the bandwidth, it changes with the order by more than its covariance.
 void add_order_scatter(Identification& result) {
   for (std::size_t m = 0; m < result.modes.size(); ++m) {
     ModeDeviation& deviation = result.deviations[m];
@@ -225,10 +226,10 @@ void add_deviations(Identification& result, const Observability& observability, 
   add_order_scatter(result);
 }
 
-/// Drops the modes that are lines: no further from one than its poles scatter, or two standard deviations, and with a damping
-/// ratio that does not differ from what taking a line out leaves by more than two standard deviations.
+/// Drops the modes that are lines of periodic forces. Such a mode is no farther from a line than the scatter of the line's
+/// poles or two standard deviations, and its damping ratio is at most two standard deviations above that of a removed line.
 void drop_lines(Identification& result, const std::vector<PeriodicLine>& lines, const PeriodicRule& rule) {
-  constexpr double kFew = 2.0;  // standard deviations that chance explains
+  constexpr double kFew = 2.0;  // [standard deviations] a difference of this size is chance
   std::vector<bool> stays(result.modes.size(), true);
   for (std::size_t m = 0; m < stays.size(); ++m) {
     const Cluster& mode = result.modes[m];
@@ -315,7 +316,7 @@ Identification identify_from_data(const std::vector<Samples>& records, const std
 
 Identification identify_decays(const std::vector<Eigen::MatrixXd>& decays, double rate_Hz, const IdentifyOptions& options,
                                std::uint64_t seed, const std::vector<Eigen::MatrixXd>& quiet) {
-  constexpr int kDraws = 100;  // deviations within 7 %
+  constexpr int kDraws = 100;  // draws, for deviations to within 7 %
   const FreeDecay found = era(decays, options.block_rows, options.orders(), rate_Hz, seed, kDraws, quiet);
   Identification result = select(found.models, options);
   add_deviations(result, found.observability, found.models, found.changes, options, 0.0);

@@ -27,23 +27,23 @@ struct IdentifyOptions {
   AutomaticRule automatic;
   PeriodicRule periodic;
   /// A cluster whose frequency has a relative standard deviation above this is dropped: its pole recurs over the model orders,
-  /// but the data do not determine it. 0 keeps all (the rule as printed in the paper). Automatic selection of an ambient
-  /// record: unless three times the lower limit (see below) allow more.
+  /// but the data do not determine it. In the automatic selection of an ambient record, three times the lower limit (see below)
+  /// is allowed if that is more. 0 keeps all (the rule as printed in the paper).
   double largest_deviation = 0.01;
   /// Automatic selection: a mode of an ambient record is dropped if the standard deviation of its unit-norm shape, across
-  /// itself, exceeds this. At 0.6 its MAC with the true shape is some 0.7, and one of two close modes can no longer be told
+  /// itself, exceeds this. At 0.6 its MAC with the true shape is about 0.7, and one of two close modes cannot be distinguished
   /// from a mixture of both. 0 keeps all. It is also dropped if its shape is not collinear (AutomaticRule::collinearity) and
-  /// the deviation may be all of the reason.
+  /// the deviation alone can explain this.
   double largest_shape_deviation = 0.6;
   /// Automatic selection: a mode of an ambient record is dropped if the standard deviation of its frequency exceeds this many
   /// times
   ///     f sqrt(zeta / (2 pi N_c)),   N_c the cycles in the record,
-  /// the lower limit for a record of this length (Au 2014): its pole recurs, but it hardly contributes to the motion. It is
-  /// also dropped if its damping ratio is not larger than its standard deviation, unless three times the lower limit allow
-  /// more. 0 keeps all.
+  /// the lower limit for a record of this length (Au 2014): such a mode hardly contributes to the motion. It is also dropped if
+  /// its damping ratio is below its standard deviation, unless that is within three times the lower limit. 0 keeps all.
   double largest_law_ratio = 10.0;
-  /// Automatic selection: dropped if it exceeds this share of the half bandwidth zeta f; of a record also three times the lower
-  /// limit, since in few cycles no mode is known better; of a decay also if its damping ratio may be none. 0 keeps all.
+  /// Automatic selection: a mode is dropped if the standard deviation of its frequency exceeds this share of the half bandwidth
+  /// zeta f. In a record, three times the lower limit is allowed if that is more, because few cycles determine no mode better.
+  /// In a decay, a mode is also dropped if its damping ratio may be zero. 0 keeps all.
   double largest_bandwidth_share = 0.5;
 
   [[nodiscard]] std::vector<int> orders() const;
@@ -84,33 +84,34 @@ struct Identification {
                                              const std::vector<Eigen::MatrixXd>& quiet = {});
 
 /// Tells lines of periodic forces from modes: `periodic` keeps the candidates that the records show to be lines. Modes at such
-/// a frequency that are damped no more than taking the line out leaves are dropped.
+/// a frequency are dropped, unless their damping exceeds that of a removed line.
 /// @param records  those identified (n_samples × n_outputs), channels scaled alike
 /// @param known  lines that are no longer in these records; they stay in `periodic`
 void mark_periodic(Identification& result, const std::vector<Samples>& records, double rate_Hz, const PeriodicRule& rule,
                    const std::vector<PeriodicLine>& known = {});
 
-/// In each setup, drops the modes that are lines of another one: a machine that one setup shows runs in the next one too.
+/// Drops the modes of each setup that are lines in another setup, because a machine runs during all of them.
 void drop_lines_of_others(const std::vector<Identification*>& setups, const PeriodicRule& rule);
 
-/// Drops the modes that do not stay, with their deviations and marks in the diagram. @param stays  one a mode
+/// Drops modes, with their deviations and marks in the diagram. @param stays  false: the mode is dropped
 void keep_modes(Identification& result, const std::vector<bool>& stays);
 
-/// Drops the modes that the data do not determine, by the rules of the options. Of those that are left, the automatic selection
-/// drops mixtures of two others, and the one with the larger standard deviation of a pair that the data cannot tell apart:
-/// frequencies within three standard deviations of their difference, and shapes that differ by no more than one expects of one
-/// shape with the deviations of both. Each mode must have its deviation.
+/// Drops the modes that the data do not determine, by the rules of the options. The automatic selection then drops mixtures of
+/// two other modes. Of two modes that the data cannot distinguish it drops the one with the larger standard deviation:
+/// frequencies within three standard deviations of their difference, and shapes that differ no more than two estimates of one
+/// shape. Each mode must have its deviation.
 /// @param seconds  length of the ambient records; 0: free decays
 void drop_undetermined(Identification& result, const IdentifyOptions& options, double seconds);
 
-/// Drops poles that noise may have, from a free decay that no other test confirms. The largest of n samples of noise reaches
-/// sqrt(2 ln n) standard deviations (Donoho and Johnstone 1994); a mode's damping ratio must exceed as many of its own.
+/// Drops poles of a single free decay that may be noise. The largest of n samples of noise reaches sqrt(2 ln n) standard
+/// deviations (Donoho and Johnstone 1994); a mode's damping ratio must exceed as many of its own.
 void drop_noise_of_a_decay(Identification& result, Eigen::Index samples);
 
-/// Drops the modes that are known better than random forces allow: below the lower limit of IdentifyOptions by more than
-/// chance, as far as the number of blocks (columns of the factor) tells a deviation; half of it for twenty. Such a pole moves
-/// in step with something periodic, as a machine's line does that wanders too much to be marked. Where half of the modes or
-/// more are known so well, the forces of the record are not random (fans, one shaker for all): none is dropped.
+/// Drops modes of an ambient record with smaller deviations than random forces allow: below the lower limit of IdentifyOptions
+/// by more than chance. The uncertainty of a deviation follows from the number of blocks (columns of the factor); with twenty
+/// blocks the threshold is half the limit. Such a pole follows a periodic force, for example a machine whose speed varies too
+/// much to be marked as a line. If half of the modes or more are below, the forces of the record are not random (fans, one
+/// shaker), and none is dropped.
 /// @param seconds  length of the ambient records
 void drop_better_than_random(Identification& result, double seconds);
 

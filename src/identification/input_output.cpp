@@ -39,7 +39,7 @@ Observability observability_of(const Eigen::MatrixXd& lower_gram, const Sizes& s
   Eigen::MatrixXd gram = lower_gram.selfadjointView<Eigen::Lower>();
   const std::vector<Index> order = ordering(size);
   gram = Eigen::MatrixXd(gram(order, order));
-  // Channels of different size: brought to one scale by the diagonal, which L takes up again.
+  // The diagonal scales channels of different size; the scale goes back into L.
   const Eigen::VectorXd scale = gram.diagonal().cwiseSqrt();
   if (!(scale.minCoeff() > 0.0))
     throw InputError({"", 0, "role"}, "one of the inputs or outputs is zero throughout", "leave that channel out");
@@ -61,7 +61,7 @@ const Pole* nearest(const std::vector<Pole>& candidates, const Pole& reference) 
   return at == candidates.end() ? nullptr : &*at;
 }
 
-/// A replicate of a mode: medians over its members' orders, mean shape.
+/// A replicate of a mode: medians of its members' values, mean shape.
 Eigen::VectorXd replicate(const std::vector<Pole>& members, const std::vector<int>& orders,
                           const std::vector<std::vector<Pole>>& found) {
   std::vector<double> frequency, damping;
@@ -97,7 +97,7 @@ void check_size(const Sizes& size, Index samples, int n_blocks, int maximum_orde
                      "raise block_rows or lower maximum_order");
 }
 
-/// Gram matrices of the data in consecutive blocks of columns; their sum is that of the record.
+/// Gram matrices of the data in consecutive blocks of columns. Their sum is that of the record.
 std::vector<Eigen::MatrixXd> grams_of_blocks(const Eigen::MatrixXd& data, const Sizes& size, int n_blocks) {
   const Index columns = data.rows() - 2 * size.block_rows + 1;
   std::vector<Index> everything(static_cast<std::size_t>(size.all()));

@@ -12,13 +12,14 @@ using Eigen::Index;
 namespace {
 
 constexpr long kFewestBlocks = 8;      // deviations from fewer blocks are known to worse than 30 %
-constexpr long kFewestBlockRows = 10;  // fewer hardly carry one mode
-constexpr long kSpectrumSegment = 64;  // samples of a spectrum that shows anything
+constexpr long kFewestBlockRows = 10;  // with fewer, hardly one mode can be identified
+constexpr long kSpectrumSegment = 64;  // [samples] shortest useful segment of a spectrum
 
-/// Samples of a block for each block row: twice the lags, which are two a row (signal::correlations).
+/// Samples that a block needs for each block row: twice the number of lags, and there are two lags per row
+/// (signal::correlations).
 constexpr long kSamplesPerRow = 4;
 
-/// Samples that an input-output identification needs for each block row (identify_input_output).
+/// Samples that input-output identification needs for each block row (identify_input_output).
 long samples_per_row_with_inputs(const Conditioned& conditioned) {
   return static_cast<long>(4 * (conditioned.channels.size() + conditioned.inputs.size()) + 2);
 }
@@ -26,7 +27,6 @@ long samples_per_row_with_inputs(const Conditioned& conditioned) {
 class Limits {
  public:
   explicit Limits(const IdentificationSettings& config) : config_(config) {}
-  /// Lowers one limit, and remembers it.
   void lower(const char* name, long IdentificationSettings::*limit, long to) {
     if (config_.*limit <= to) return;
     changed_.push_back(fmt::format("{} {} -> {}", name, config_.*limit, to));
@@ -45,7 +45,7 @@ class Limits {
 CarriedLimits carried_by(const Conditioned& conditioned, const IdentificationSettings& config) {
   const long n = shortest_record(conditioned.records);
   const bool with_inputs = !conditioned.excitation.empty();
-  // Who asks for less than these gets it.
+  // A configuration with smaller values is respected.
   const long fewest_rows = std::min(config.block_rows, kFewestBlockRows), blocks = std::min(config.blocks, kFewestBlocks);
   const long identified = fewest_rows * (with_inputs ? samples_per_row_with_inputs(conditioned) : kSamplesPerRow * blocks);
   const long least = std::max(identified, std::min(config.welch_segment, kSpectrumSegment));
@@ -60,8 +60,8 @@ CarriedLimits carried_by(const Conditioned& conditioned, const IdentificationSet
     limits.lower("blocks", &IdentificationSettings::blocks, std::max(blocks, n / (kSamplesPerRow * config.block_rows)));
     limits.lower("block_rows", &IdentificationSettings::block_rows, n / (kSamplesPerRow * limits.config().blocks));
   }
-  // What the configured block rows do not carry is a slip of the configuration, and refused later; what fewer rows or a default
-  // do not carry follows them.
+  // An order too large for the configured block rows is a mistake in the configuration, and is refused later. If the block rows
+  // were lowered, or the order is the default, the order is lowered too.
   if (limits.config().block_rows < config.block_rows || config.order_is_default) {
     const auto rows = static_cast<Index>(limits.config().block_rows), outputs = static_cast<Index>(conditioned.channels.size());
     const auto references = static_cast<Index>(conditioned.references.size());

@@ -6,11 +6,11 @@
 
 namespace twindeck::identification {
 
-/// The configuration as far as the shortest of a setup's records and its channels carry it. Blocks, block rows, the largest
-/// order and the Welch segment become smaller, in this order of sacrifice; nothing becomes larger.
+/// The configuration, with limits lowered to the channels and the shortest record of a setup: first blocks, then block rows,
+/// then the largest order and the Welch segment. No limit is raised.
 struct CarriedLimits {
   IdentificationSettings config;
-  std::string note;  ///< which limits follow the record's length; empty if all stay
+  std::string note;  ///< which limits were lowered; empty for none
 };
 /// @throws UnusableRecord  if not even the smallest limits fit
 [[nodiscard]] CarriedLimits carried_by(const Conditioned& conditioned, const IdentificationSettings& config);

@@ -18,19 +18,17 @@ using Eigen::Index;
 
 namespace {
 
-constexpr double kStuck =
-    0.05;  ///< [-] of the record that repeats the sample before: a loss that bends the channel's shape by several per cent
-constexpr double kHeld = 0.01;             ///< [-] the same, of a run that resolution does not explain: a spurious mode at 3 %
-constexpr double kAlone = 10.0;            ///< times the tenth longest run: then it is no matter of resolution
-constexpr double kRoundingOfGain = 1e-12;  ///< [-] what the gain's multiplication does to equal values
-constexpr double kCopy = 0.01;             ///< [RMS] that a copy may be off by rounding: two sensors differ by their noise
-constexpr double kFiveDigits = 1e-4;       ///< [-] what five digits resolve of a number
-constexpr double kSameValues = 1e-9;       ///< [-] of factor and offset of values that are the same
+constexpr double kStuck = 0.05;            ///< [-] share of repeated samples, which changes the shape by several per cent
+constexpr double kHeld = 0.01;             ///< [-] the same, in one run that resolution does not explain
+constexpr double kAlone = 10.0;            ///< times the tenth longest run: a longer run is not due to resolution
+constexpr double kRoundingOfGain = 1e-12;  ///< [-] rounding of equal values by the gain
+constexpr double kCopy = 0.01;             ///< [RMS] largest rounding error of a copy; two sensors differ by more noise
+constexpr double kFiveDigits = 1e-4;       ///< [-] resolution of a number with five digits
+constexpr double kSameValues = 1e-9;       ///< [-] tolerance of factor and offset for equal values
 
-/// The longest run of one value.
 struct Run {
   Index first = 0, length = 0;
-  Index usual = 1;  ///< length of the tenth longest
+  Index usual = 1;  ///< length of the tenth longest run
 };
 
 Run longest_run(const Eigen::Ref<const Eigen::VectorXd>& x) {
@@ -49,7 +47,6 @@ Run longest_run(const Eigen::Ref<const Eigen::VectorXd>& x) {
   return best;
 }
 
-/// Samples where a channel is lowest and highest.
 std::pair<Index, Index> extremes(const Eigen::Ref<const Eigen::VectorXd>& x) {
   Index low = 0, high = 0;
   for (Index t = 1; t < x.size(); ++t) {
@@ -59,10 +56,10 @@ std::pair<Index, Index> extremes(const Eigen::Ref<const Eigen::VectorXd>& x) {
   return {low, high};
 }
 
-/// The step that all values of a channel are whole numbers of, as a converter or a number of decimals leaves them; infinite
-/// without one.
+/// The step of a channel, from its converter or its number of decimals: all values are whole multiples of it. Infinite if there
+/// is none.
 double resolution(const Eigen::Ref<const Eigen::VectorXd>& x) {
-  constexpr double whole = 0.05, none = std::numeric_limits<double>::infinity();  // off a whole number
+  constexpr double whole = 0.05, none = std::numeric_limits<double>::infinity();  // largest distance from a whole number
   std::vector<double> values;
   std::copy_if(x.begin(), x.end(), std::back_inserter(values), [](double value) { return std::isfinite(value); });
   std::sort(values.begin(), values.end());
@@ -78,7 +75,8 @@ struct Copy {
   double factor = 1.0, offset = 0.0;
 };
 
-/// How b follows from a in every sample, within what either resolves; where that is coarse beside the motion, within rounding.
+/// Factor and offset if b follows from a in every sample, within the resolution of either; if that is coarse beside the motion,
+/// within rounding.
 /// @param rms_b  of b @param at  extremes of a
 std::optional<Copy> copy_of(const Eigen::Ref<const Eigen::VectorXd>& a, const Eigen::Ref<const Eigen::VectorXd>& b,
                             double rms_b, std::pair<Index, Index> at) {
@@ -99,9 +97,10 @@ std::optional<Copy> copy_of(const Eigen::Ref<const Eigen::VectorXd>& a, const Ei
   return Copy{factor, offset};
 }
 
-/// A pure sine, whose second difference is in proportion to it: two channels that hold one are no copies.
+/// Whether a channel is a pure sine: its second difference is proportional to it. Two channels with the same sine are no
+/// copies.
 bool is_tone(const Eigen::Ref<const Eigen::VectorXd>& x) {
-  constexpr double other = 1e-3;  // [-] of the power of the second difference
+  constexpr double other = 1e-3;  // [-] of the power of the second difference that may remain
   double xx = 0.0, xy = 0.0, yy = 0.0;
   for (Index t = 1; t + 2 < x.size(); ++t) {
     const double d = x[t + 1] - x[t], y = x[t + 2] - x[t + 1] - 2.0 * d + x[t] - x[t - 1];
@@ -112,7 +111,7 @@ bool is_tone(const Eigen::Ref<const Eigen::VectorXd>& x) {
   return yy - xy * xy / xx <= other * yy;
 }
 
-/// Whether every sample is one step on from the last: a number of the row, which loggers write beside its time.
+/// Whether every sample is one more than the last: a counter of rows, which loggers write beside the time.
 bool counts_rows(const Eigen::Ref<const Eigen::VectorXd>& x) {
   constexpr double rounding = 1e-6;  // [-] of a step
   const double step = x.size() > 2 ? x[1] - x[0] : 0.0;
@@ -170,7 +169,7 @@ void judge_channels(const Samples& raw, const JudgedChannels& judged, std::vecto
       const double factor = copy->factor * judged.gain[i] / judged.gain[j],
                    offset = std::abs(copy->offset) < kSameValues * b->rms ? 0.0 : copy->offset / judged.gain[j];
       const bool same = std::abs(factor - 1.0) < kSameValues && offset == 0.0;
-      // A decay in one mode alone is in proportion everywhere, and so is a sine.
+      // In a decay in a single mode, and in a sine, all channels are proportional.
       if (!same && (judged.may_rest || is_tone(raw.col(judged.columns[i])))) continue;
       scaled += same ? 0 : 1;
       if (judged.reference[j] && !judged.reference[i]) std::swap(a, b);
@@ -181,7 +180,7 @@ void judge_channels(const Samples& raw, const JudgedChannels& judged, std::vecto
                                        std::abs(offset));
     }
   }
-  // All in proportion: a motion in one shape without noise, of which no channel is another's copy.
+  // If all channels are proportional, the motion has one shape and no noise, and no channel is a copy.
   if (scaled > 1 && scaled + 1 == std::ssize(judged.columns)) quality = moving;
 }
 

@@ -22,10 +22,9 @@ struct Candidate {
   std::size_t setup, mode;
 };
 
-/// Two setups' shapes at the channels that both have.
 struct Comparison {
   double mac = 1.0;
-  double noise = 0.0;  ///< 1 - MAC that the deviations of both lead one to expect of one and the same shape
+  double noise = 0.0;  ///< expected 1 - MAC of two estimates of one shape with these deviations
 };
 Comparison compare(const SetupModes& a, std::size_t p, const SetupModes& b, std::size_t q) {
   const Cluster &first = a.modes[p], &second = b.modes[q];
@@ -52,17 +51,16 @@ Comparison compare(const SetupModes& a, std::size_t p, const SetupModes& b, std:
   return {std::norm(product) / (aa * bb), va / aa + vb / bb};
 }
 
-/// Alike by the rule, or as far as the deviations can tell: a mode that hardly moves the common channels has no shape there to
-/// speak of, and one that a setup hardly shows may lie further off.
+/// Whether two modes may be one: alike by the rule, or different by no more than their deviations. Modes that hardly move the
+/// common channels have no certain shape there, and badly determined frequencies may differ more.
 bool may_be_one(const Comparison& shapes, double df_Hz, double deviation_Hz, double reach_Hz, const MergingRule& rule) {
   if (df_Hz < reach_Hz && shapes.mac >= rule.mac) return true;
   return df_Hz <= 3.0 * deviation_Hz && 1.0 - shapes.mac <= rule.noise * shapes.noise;
 }
 
-/// How unlikely it is to meet this difference in one and the same mode: minus twice the logarithm of its density, frequencies
-/// normal and 1 - MAC exponential with their deviations. Close modes that a setup orders otherwise are so told apart by
-/// whichever is known better, and a badly known mode is near to none. Floors: what deviations from few blocks and the choice of
-/// an order leave out.
+/// How unlikely this difference is for one and the same mode: minus twice the logarithm of its density. Frequencies are normal
+/// and 1 - MAC is exponential, with the given deviations. So the better known quantity decides between close modes, and a badly
+/// known mode is near to none. The floors cover errors that are not in deviations from few blocks and one order.
 double unlikelihood(const Comparison& shapes, double df_Hz, double deviation_Hz, double frequency_Hz) {
   constexpr double kFrequencyFloor = 0.001;  // of the frequency
   constexpr double kShapeFloor = 0.02;       // of 1 - MAC
@@ -120,7 +118,7 @@ struct Average {
 
 /// Random-effects mean of values with their own variances.
 Average average(const Eigen::ArrayXd& values, Eigen::ArrayXd variances) {
-  // A sigma from few blocks may be tiny by chance: none counts for less than a hundredth of the median variance.
+  // A variance from few blocks may be tiny by chance. None counts for less than a hundredth of the median.
   Eigen::ArrayXd sorted = variances;
   std::sort(sorted.begin(), sorted.end());
   variances = variances.max(0.01 * sorted[sorted.size() / 2]).max(1e-300);
@@ -143,16 +141,16 @@ Index position(const SetupModes& setup, Index channel) {
   return at == setup.channels.end() ? -1 : static_cast<Index>(at - setup.channels.begin());
 }
 
-/// Variance of an entry as a weight: to a power of two. From a few blocks it is not known better, and the last digits of a
-/// deviation, which hang on those of the record, must not move a shape.
+/// Variance of an entry as a weight, rounded to a power of two: few blocks do not determine it better, and its last digits must
+/// not change a shape.
 double entry_variance(const ModeDeviation& deviation, Index i) {
   const double variance = deviation.shape_real[i] * deviation.shape_real[i] + deviation.shape_imag[i] * deviation.shape_imag[i];
   return variance > 0.0 ? std::exp2(std::round(std::log2(variance))) : 0.0;
 }
 
-/// Motion of the references in units of its deviation: below some three, nobody knows the sign of a setup's shape.
+/// Motion of the references in units of its deviation. Below about three, the sign of a setup's shape is unknown.
 double reference_signal(const SetupModes& setup, std::size_t mode, const std::vector<Index>& references) {
-  constexpr double kFloor = 0.02;  // of the shape's norm: what a close mode leaves in it beyond its deviation
+  constexpr double kFloor = 0.02;  // of the shape's norm: error by close modes, beyond the deviation
   double square = 0.0;
   for (const Index reference : references) {
     const Index at = position(setup, reference);
@@ -163,8 +161,8 @@ double reference_signal(const SetupModes& setup, std::size_t mode, const std::ve
   return std::sqrt(square);
 }
 
-/// Factors that bring each member's references to one common shape. Zero for a setup whose references hardly move; if no two
-/// are left, one setup stands for the shape alone: that with the strongest references.
+/// Factors that scale each member's references to one common shape. A setup whose references hardly move gets zero. If fewer
+/// than two setups remain, the setup with the strongest references alone gives the shape.
 std::vector<std::complex<double>> scales(const std::vector<SetupModes>& setups, const std::vector<Candidate>& members,
                                          const std::vector<Index>& references) {
   if (members.size() < 2) return {1.0};
@@ -227,7 +225,7 @@ void merge_shapes(const std::vector<SetupModes>& setups, const std::vector<Candi
     if (weight[i] > 0.0) shape[i] /= weight[i];
   const double norm = std::max(shape.norm(), 1e-300);
   merged.shape = normalised_shape(shape);
-  // The deviations turn with the shape: by the setup's factor, and by the phase that the normalised shape has been given.
+  // The deviations are rotated like the shape: by the setup's factor and by the phase of the normalised shape.
   const double turn = std::arg(shape.dot(merged.shape));
   for (std::size_t k = 0; k < members.size(); ++k) {
     if (factors[k] == 0.0) continue;

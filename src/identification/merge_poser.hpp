@@ -18,8 +18,8 @@ struct SetupModes {
 };
 
 struct MergingRule {
-  /// Largest relative distance of frequencies of one mode in two setups; half a bandwidth, of the narrower one, where that is
-  /// more: within it the automatic selection, too, takes poles of one shape for one mode.
+  /// Largest relative distance of frequencies of one mode in two setups. Half the narrower bandwidth is used if that is more,
+  /// as in the automatic selection.
   double frequency = 0.02;
   double mac = 0.7;  ///< least MAC of one mode over the channels that both setups have (needs two such channels)
   /// With a lower MAC two modes may still be the same, if their frequencies agree within three standard deviations and 1 - MAC

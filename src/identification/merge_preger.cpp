@@ -21,7 +21,7 @@ using Eigen::Index;
 
 namespace {
 
-/// Rows of the block matrix (l p × columns) that belong to the given outputs, block by block.
+/// Rows of a block matrix (l p × columns) that belong to the given outputs, block by block.
 Eigen::MatrixXd rows_of(const Eigen::MatrixXd& block_matrix, Index n_outputs, const std::vector<Index>& outputs) {
   const Index p = block_matrix.rows() / n_outputs, n = static_cast<Index>(outputs.size());
   Eigen::MatrixXd rows(p * n, block_matrix.cols());
@@ -30,18 +30,18 @@ Eigen::MatrixXd rows_of(const Eigen::MatrixXd& block_matrix, Index n_outputs, co
   return rows;
 }
 
-/// The rows of a setup whose sensors move, in the units of its references.
+/// Rows of the moving sensors of a setup, in the units of its references.
 struct Moving {
   Eigen::MatrixXd rows;  ///< of the Toeplitz matrix (moving outputs p × columns)
   std::vector<Index> channels;
 };
 
-/// All setups with their references brought to one norm.
+/// All setups, with their references scaled to one norm.
 struct JointSetups {
   Index references, block_rows;
-  Eigen::MatrixXd joint;  ///< references' rows, setups side by side
+  Eigen::MatrixXd joint;  ///< rows of the references, setups side by side
   std::vector<Moving> moving;
-  std::vector<Index> row_channel;  ///< of each row of a block of the merged observability matrix
+  std::vector<Index> row_channel;  ///< channel of each row in a block of the merged observability matrix
 
   [[nodiscard]] Index columns() const { return references * block_rows; }
 };
@@ -72,7 +72,7 @@ JointSetups side_by_side(const std::vector<SetupCorrelations>& setups, Index blo
   return all;
 }
 
-/// Observability of an order with the rows of all setups, block by block; the decomposition's scale is in it.
+/// Observability matrix of one order with the rows of all setups, block by block, including the scale of the decomposition.
 Observability merged_observability(const JointSetups& all, const LeadingSvd& svd, int order) {
   const Index r = all.references, p = all.block_rows;
   const auto l = static_cast<Index>(all.row_channel.size());
@@ -125,9 +125,9 @@ std::vector<std::vector<Pole>> merge_preger(const std::vector<SetupCorrelations>
 
 namespace {
 
-constexpr double kSameMode = 0.02;        ///< [-] of the frequency: two mergings of the same records agree far better
-constexpr double kSamePole = 0.005;       ///< [-] of the frequency: poles of single orders, that no selection has cleaned
-constexpr std::size_t kFewestOrders = 3;  ///< [-] a pole that fewer orders have is none of the structure's
+constexpr double kSameMode = 0.02;        ///< [-] of the frequency; two mergings of the same records differ by far less
+constexpr double kSamePole = 0.005;       ///< [-] of the frequency; for poles of single orders that were not selected
+constexpr std::size_t kFewestOrders = 3;  ///< [-] a pole found at fewer orders does not count
 
 void set(MergingCheck& check, double frequency_Hz, double damping_ratio, const Eigen::VectorXcd& shape) {
   check.found = true;
@@ -136,7 +136,7 @@ void set(MergingCheck& check, double frequency_Hz, double damping_ratio, const E
   check.shape = shape;
 }
 
-/// A mode that PreGER's own selection lacks, from the poles of its frequency.
+/// Uses the poles near the mode's frequency if PreGER's own selection lacks the mode.
 void set_nearest_poles(MergingCheck& check, const Identification& preger, const MergedMode& mode) {
   std::map<int, const Pole*> nearest;
   const auto off = [&](const Pole& pole) { return std::abs(pole.frequency_Hz - mode.frequency_Hz); };
@@ -175,7 +175,7 @@ double known_mac(const Eigen::VectorXcd& a, const Eigen::VectorXcd& b) {
 
 std::vector<MergingCheck> merging_checks(const std::vector<MergedMode>& modes, const Identification& preger,
                                          const std::vector<records::CampaignChannel>& channels, const Eigen::VectorXd& scale) {
-  Eigen::MatrixXd mac = Eigen::MatrixXd::Zero(std::ssize(modes), std::ssize(preger.modes));  // of the near ones
+  Eigen::MatrixXd mac = Eigen::MatrixXd::Zero(std::ssize(modes), std::ssize(preger.modes));  // of pairs within kSameMode
   for (Index i = 0; i < mac.rows(); ++i) {
     for (Index j = 0; j < mac.cols(); ++j) {
       const MergedMode& mode = modes[static_cast<std::size_t>(i)];
@@ -211,7 +211,7 @@ void take_preger(MergedMode& mode, const MergingCheck& check) {
   const Eigen::VectorXcd zero = Eigen::VectorXcd::Zero(mode.shape.size());
   const Eigen::VectorXcd before = unknown.select(zero.array(), mode.shape.array());
   const Eigen::VectorXcd after = normalised_shape(unknown.select(zero.array(), check.shape.array()));
-  // Either is as real as it can be, but its sign follows its largest entry.
+  // Both shapes have their phase normalised, but their signs may differ.
   const Eigen::VectorXcd shift = after - before * std::polar(1.0, std::arg(before.dot(after)));
   ModeDeviation& deviation = mode.deviation;
   deviation.frequency_Hz = std::hypot(deviation.frequency_Hz, check.frequency_Hz - mode.frequency_Hz);

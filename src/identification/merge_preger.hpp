@@ -34,7 +34,7 @@ struct MergingCheck {
   bool found = false;  ///< PreGER has the mode
   double frequency_Hz = 0.0, damping_ratio = 0.0, mac = 0.0;
   Eigen::VectorXcd shape;                                      ///< (all channels)
-  double poser_frequency_Hz = 0.0, poser_damping_ratio = 0.0;  ///< what it is held against, whichever merging counts
+  double poser_frequency_Hz = 0.0, poser_damping_ratio = 0.0;  ///< values of PoSER, whichever merging is used
 };
 
 /// MAC over the channels where both shapes are known (not NaN); 0 for none.
@@ -42,8 +42,8 @@ struct MergingCheck {
 
 /// PreGER's counterpart of each mode of PoSER: a mode of PreGER within two per cent of its frequency, one-to-one with the
 /// largest sum of MAC. Where no mode of PreGER is near, the poles within half a per cent of its frequency are taken, the
-/// nearest of each order: median of frequency and damping, mean of the shape. A mode whose near ones all belong to other modes
-/// has none.
+/// nearest of each order: median of frequency and damping, mean of the shape. A mode has none if all near modes of PreGER
+/// belong to other modes.
 /// @param modes     of PoSER
 /// @param preger    shapes of its modes physical, those of its poles as identified
 /// @param channels  of all setups @param scale  (n_channels) what the records were divided by
@@ -52,9 +52,9 @@ struct MergingCheck {
                                                        const std::vector<records::CampaignChannel>& channels,
                                                        const Eigen::VectorXd& scale);
 
-/// Puts PreGER's values in the place of PoSER's, where PreGER has the mode. It gives no deviations of its own: they become the
-/// root of the sum of squares of PoSER's and the difference of both mergings, so that neither value is thought more certain
-/// than the choice between two ways to merge the same records. Channels that PoSER's shape lacks stay NaN.
+/// Puts PreGER's values in the place of PoSER's, where PreGER has the mode. PreGER gives no deviations. They are the root of
+/// the sum of squares of PoSER's deviation and of the difference of both mergings, because the choice of the merging is
+/// uncertain too. Channels that PoSER's shape lacks stay NaN.
 void take_preger(MergedMode& mode, const MergingCheck& check);
 
 }  // namespace twindeck::identification

@@ -12,13 +12,13 @@ namespace twindeck::identification {
 
 namespace {
 
-/// [-] of the frequency, and of critical: the digits that a page shows.
+/// [-] Tolerance of the frequency and of the damping ratio: the digits that the page shows.
 constexpr double kSamePoleFrequency = 1e-3, kSamePoleDamping = 1e-3;
-/// Poles of other orders that are the same mode: as paper section 3.1 has it for a stable shape and frequency.
+/// Tolerances for poles of other orders that are the same mode, as for a stable pole in paper section 3.1.
 constexpr double kSameModeFrequency = 0.02, kSameModeMac = 0.95;
-constexpr double kLeastShapeDeviation = 0.02;  ///< [-] of a unit-norm shape that a person picked
+constexpr double kLeastShapeDeviation = 0.02;  ///< [-] of a unit-norm shape of a picked mode
 
-/// The pole of the order nearest to what a choice says.
+/// The pole of the chosen order nearest to the chosen frequency.
 std::optional<std::size_t> pole_of_choice(const ModeChoice& choice, const std::vector<DiagramPole>& diagram) {
   std::optional<std::size_t> best;
   double least = kSamePoleFrequency;
@@ -33,7 +33,7 @@ std::optional<std::size_t> pole_of_choice(const ModeChoice& choice, const std::v
   return best;
 }
 
-/// The poles of the mode that a picked pole is one of, no pole of another mode among them.
+/// The poles of the mode of a picked pole, without poles of other modes.
 std::vector<std::size_t> members_about(const std::vector<DiagramPole>& diagram, std::size_t picked) {
   std::vector<std::size_t> near;
   const Pole& own = diagram[picked].pole;

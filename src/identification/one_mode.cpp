@@ -19,7 +19,7 @@ bool are_one(const MergedMode& low, const MergedMode& high) {
   return high.frequency_Hz - low.frequency_Hz <= kApart * sigma && known_mac(low.shape, high.shape) >= kOneShape;
 }
 
-/// Mean of two values weighted by 1/variance; the surer value where a deviation is 0.
+/// Mean of two values weighted by 1/variance; the surer value if its deviation is 0.
 double weighted(double sure, double sigma, double other, double other_sigma) {
   const double all = sigma * sigma + other_sigma * other_sigma;
   return all > 0.0 ? sure + (other - sure) * sigma * sigma / all : sure;

@@ -46,8 +46,8 @@ std::vector<PeriodicLine> undamped_poles(const std::vector<std::vector<Pole>>& p
 
 namespace {
 
-constexpr double kIndependent = 10.0;  // the band is this many times 1/(length of the record): some twenty independent values
-constexpr double kNarrowest = 0.001;   // of the frequency: a machine's speed wanders by some hundredths of a per cent
+constexpr double kIndependent = 10.0;  // band width in 1/(length of the record), for about twenty independent values
+constexpr double kNarrowest = 0.001;   // [-] of the frequency; the speed of a machine varies by some hundredths of a per cent
 
 double band_of(const PeriodicLine& line, Index n_samples, double rate_Hz) {
   return std::max(kIndependent * rate_Hz / static_cast<double>(n_samples), kNarrowest * line.frequency_Hz);
@@ -55,7 +55,7 @@ double band_of(const PeriodicLine& line, Index n_samples, double rate_Hz) {
 
 /// E|a|⁴ / (E|a|²)² of the envelope around a frequency, mean over the records.
 double envelope_kurtosis(const PeriodicLine& line, const std::vector<Samples>& records, double rate_Hz) {
-  constexpr double kSettled = 0.5;  // of 1/band: the filter has settled that far from either end
+  constexpr double kSettled = 0.5;  // of 1/band: the filter needs that time at either end
   double sum = 0.0, samples = 0.0;
   for (const Samples& record : records) {
     const auto n = static_cast<double>(record.rows());
@@ -70,7 +70,7 @@ double envelope_kurtosis(const PeriodicLine& line, const std::vector<Samples>& r
   return samples > 0.0 ? sum / samples : 2.0;
 }
 
-/// Which multiple of the base it is; 0 for none.
+/// The number of the multiple of the base; 0 for none.
 int multiple_of(double frequency_Hz, double base_Hz, double tolerance) {
   const double ratio = frequency_Hz / base_Hz, whole = std::round(ratio);
   return whole >= 1.0 && std::abs(ratio - whole) < tolerance * whole ? static_cast<int>(whole) : 0;
@@ -86,7 +86,6 @@ Eigen::ArrayXd phase_of(const PeriodicLine& line, const Samples& record, double 
   return phase;
 }
 
-/// exp(i phase).
 Eigen::ArrayXcd turning(const Eigen::ArrayXd& phase) {
   Eigen::ArrayXcd phasor(phase.size());
   phasor.real() = phase.cos();
@@ -94,14 +93,14 @@ Eigen::ArrayXcd turning(const Eigen::ArrayXd& phase) {
   return phasor;
 }
 
-/// What each channel holds of a phasor, as an amplitude (n_outputs).
+/// Amplitude of the part of each channel that follows a phasor (n_outputs).
 Eigen::VectorXcd coherent_part(const Samples& record, const Eigen::ArrayXcd& phasor) {
   return 2.0 / static_cast<double>(record.rows()) *
          (record.transpose().cast<std::complex<double>>() * phasor.conjugate().matrix());
 }
 
-/// Power of what turns with the phasor over the median of what turns by a few 1/(length of the record) faster or slower. For
-/// noise the ratio is above 20 once in 10^6.
+/// Power that follows the phasor over the median power at frequencies a few 1/(length of the record) above and below. For noise
+/// the ratio exceeds 20 once in 10^6.
 double prominence(const Samples& record, const Eigen::ArrayXcd& phasor) {
   constexpr int kNearest = 3, kFarthest = 12;  // in 1/(length of the record)
   std::vector<double> beside;
@@ -116,7 +115,7 @@ double prominence(const Samples& record, const Eigen::ArrayXcd& phasor) {
   return coherent_part(record, phasor).squaredNorm() / std::max(median(beside), 1e-300);
 }
 
-/// Subtracts by least squares what each channel holds of the columns.
+/// Subtracts from each channel its least-squares fit of the columns.
 void subtract(Samples& record, const Eigen::MatrixXd& columns) {
   const Eigen::MatrixXd amplitudes = (columns.transpose() * columns).ldlt().solve(columns.transpose() * record);
   record.noalias() -= columns * amplitudes;
@@ -128,7 +127,7 @@ Eigen::MatrixXd waves(const Eigen::ArrayXcd& phasor) {
   return both;
 }
 
-/// The line as it turns evenly, with the trend that detrending has put in place of the line's: cosine, sine, 1, time.
+/// A line of constant frequency and the trend that detrending removed from it: cosine, sine, 1, time.
 Eigen::MatrixXd even_columns(double step, Index n) {
   const Eigen::ArrayXd sample = Eigen::ArrayXd::LinSpaced(n, 0.0, static_cast<double>(n - 1));
   Eigen::MatrixXd columns(n, 4);
@@ -136,10 +135,10 @@ Eigen::MatrixXd even_columns(double step, Index n) {
   return columns;
 }
 
-/// [rad] by which a line that turns evenly goes on a sample: least squares over all channels, by Gauss-Newton.
-/// @param step  to begin with
+/// Phase step [rad] per sample of a line of constant frequency, by least squares over all channels (Gauss-Newton).
+/// @param step  first estimate
 double even_step(const Samples& record, double step) {
-  constexpr int kTurns = 5;  // the error is squared at each
+  constexpr int kTurns = 5;  // each iteration squares the error
   const Index n = record.rows();
   const Eigen::VectorXd time =
       Eigen::VectorXd::LinSpaced(n, -0.5 * static_cast<double>(n - 1), 0.5 * static_cast<double>(n - 1));
@@ -156,9 +155,10 @@ double even_step(const Samples& record, double step) {
   return step;
 }
 
-/// Takes a line out of a record: as its phase is seen to turn, or evenly if that leaves less. The narrow band that shows the
-/// phase bends it at the ends of a record, and a decimating filter the line itself: an even line is taken out of the record
-/// without its ends. @return the phase [rad]
+/// Takes a line out of a record: with its observed phase, or with a constant frequency if that leaves less. The narrow band
+/// distorts the observed phase at the ends of the record, and decimation distorts the line itself. With a constant frequency,
+/// the record is therefore cut at both ends.
+/// @return the phase [rad]
 Eigen::ArrayXd take_out(Samples& record, const PeriodicLine& line, double rate_Hz) {
   constexpr Index end = signal::decimation_reach;
   const Index n = record.rows() - 2 * end;
@@ -188,7 +188,7 @@ std::vector<PeriodicLine> without_lines(std::vector<Samples>& records, const std
     for (Samples& record : records) phases.push_back(take_out(record, line, rate_Hz));
     const auto look_at = [&](double ratio) {
       PeriodicLine other{ratio * line.frequency_Hz, 0.0, Eigen::VectorXcd(), 1.0};
-      // One that is a line by itself has its own phase, and is subtracted with it.
+      // A multiple that is a line itself has its own phase and is subtracted with that.
       if (other.frequency_Hz < lowest_Hz || is_among(all, other.frequency_Hz, rule.largest_spread)) return;
       std::vector<Eigen::ArrayXcd> phasors;
       for (std::size_t r = 0; r < records.size(); ++r) {

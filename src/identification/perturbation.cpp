@@ -26,7 +26,7 @@ SubspaceChange subspace_change(const Observability& observability, const ShiftMo
 
 namespace {
 
-/// dO in coordinates: of the columns of O beyond n (already divided by their scale), and of W_perp.
+/// dO in coordinates of the columns of O beyond n (divided by their scale), and of W_perp.
 struct ObservabilityChange {
   Eigen::MatrixXd beyond;       ///< (n_max - n × n)
   Eigen::VectorXd outer_scale;  ///< (n) factor of each column of W_perp
@@ -38,7 +38,7 @@ ObservabilityChange observability_change(const Eigen::VectorXd& sigma, const Eig
   for (Index j = 0; j < n; ++j) {
     for (Index k = 0; k < rest; ++k) {
       const double sj = sigma[j], sk = sigma[n + k];
-      // Equal singular values: their vectors are any of a plane, and no pole that counts depends on which.
+      // Equal singular values: their vectors are not unique, but no pole depends on the choice.
       if (sj - sk <= 1e-12 * sigma[0]) continue;
       change.beyond(k, j) = (sj * m(n + k, j) + sk * m(j, n + k)) / (sj * sj - sk * sk) * std::sqrt(sj / sk);
     }
@@ -53,7 +53,7 @@ PoleChange changed_pole(std::complex<double> mu, std::complex<double> d_mu, doub
   const double size = std::abs(lambda), d_size = (std::conj(lambda) * d_lambda).real() / size;
   result.frequency_Hz = d_size / (2.0 * std::numbers::pi);
   result.damping_ratio = -d_lambda.real() / size + lambda.real() * d_size / (size * size);
-  // Turned and scaled as the shape is; then without what changes its norm or its phase.
+  // Scaled and rotated like the shape, then without the parts that change its norm or phase.
   const std::complex<double> factor = shape.dot(psi);  // shape · factor = psi
   if (!(std::abs(factor) > 0.0)) {
     result.shape = Eigen::VectorXcd::Zero(shape.size());

@@ -15,16 +15,16 @@ using Eigen::Index;
 
 namespace {
 
-constexpr double kLeastDeviations = 10.0;  // what lies nearer belongs to the record's own distribution
+constexpr double kLeastDeviations = 10.0;  // a sample nearer than this belongs to the normal distribution of the record
 constexpr Index kLongest = 3;              // samples in a row
-constexpr Index kAround = 10;              // samples on each side that are looked at
-constexpr double kQuiet = 1.0 / 20.0;      // of the distance: a filtered pulse leaves more; jerks of a shaking table a tenth
-constexpr double kSame = 0.5;              // of the distance: a sample that belongs to the same group
-constexpr Index kDrawn = 65536;            // samples that a median is taken of
+constexpr Index kAround = 10;              // samples on each side that are compared
+constexpr double kQuiet = 1.0 / 20.0;      // of the distance; a filtered pulse leaves more, a jerk of a shaking table a tenth
+constexpr double kSame = 0.5;              // of the distance; samples above it belong to the same group
+constexpr Index kDrawn = 65536;            // samples for the median
 constexpr double kNormal = 1.4826;         // deviation of a normal distribution over its median absolute deviation
 
-/// The samples that are there; of a long record, as many as give the median within a hundredth of a deviation. They are drawn
-/// from a fixed seed: evenly spaced ones could keep step with a sine.
+/// The existing samples. In a long record, a random draw gives the median to a hundredth of a deviation. The seed is fixed.
+/// Evenly spaced samples could fall into step with a sine.
 std::vector<double> drawn(const Eigen::Ref<const Eigen::VectorXd>& x) {
   std::vector<double> values;
   const bool all = x.size() <= kDrawn;
@@ -46,13 +46,13 @@ class Distance {
     for (double& value : values) value = std::abs(value - middle_);
     deviation_ = kNormal * upper_median(values);
     if (deviation_ > 0.0) return;
-    for (Index t = 0; t < size(); ++t) {  // most samples are one count: the next count is the unit
+    for (Index t = 0; t < size(); ++t) {  // if most samples are one value, the unit is the distance to the next value
       const double d = at(t);
       if (d > 0.0 && (deviation_ == 0.0 || d < deviation_)) deviation_ = d;
     }
   }
   [[nodiscard]] Index size() const { return x_.size(); }
-  [[nodiscard]] double at(Index t) const { return std::abs(x_[t] - middle_); }  // NaN or infinite where missing
+  [[nodiscard]] double at(Index t) const { return std::abs(x_[t] - middle_); }  // NaN or infinite if the sample is missing
   [[nodiscard]] double deviation() const { return deviation_; }
 
  private:
@@ -60,7 +60,7 @@ class Distance {
   double middle_ = 0.0, deviation_ = 0.0;
 };
 
-/// Whether the samples on one side are quiet beside a distance. @param first  next to the group @param step  1 or -1
+/// Whether the samples on one side are small beside a distance. @param first  next to the group @param step  1 or -1
 bool is_quiet(const Distance& distance, Index first, Index step, double large) {
   std::vector<double> side;
   for (Index k = 0, t = first; k < kAround && t >= 0 && t < distance.size(); ++k, t += step)
@@ -117,7 +117,7 @@ ChannelQuality quality_of(const Eigen::Ref<const Eigen::VectorXd>& x) {
   q.mean = sum / static_cast<double>(there);
   q.clipped = clipped_samples(x, lowest, highest);
   q.lone = lone_sample(x);
-  // Least-squares line in u in [-1, 1] over the samples that are there.
+  // Least-squares line in u in [-1, 1] over the existing samples.
   double squares = 0.0, u_sum = 0.0, u_squares = 0.0, product = 0.0;
   for (Index t = 0; t < x.size(); ++t) {
     if (!std::isfinite(x[t])) continue;
@@ -176,26 +176,26 @@ long fill_gaps(Eigen::MatrixXd& data, const std::vector<std::string>& channels, 
 
 namespace {
 
-constexpr long kRun = 3;             // samples in a row that no motion leaves at one extreme value
-constexpr long kFewestAtRail = 10;   // fewer equal extremes are left to chance: 0.03 % of a short record of 30,000 samples
-constexpr std::size_t kNearby = 10;  // values next to the extreme one that it is held against
-constexpr double kPile = 5.0;        // times their samples: twice what the crest of a sine has
+constexpr long kRun = 3;             // samples in a row at an extreme value; no motion does that
+constexpr long kFewestAtRail = 10;   // fewer samples at the extreme may be chance: 0.03 % of a short record of 30,000 samples
+constexpr std::size_t kNearby = 10;  // number of values next to the extreme one for comparison
+constexpr double kPile = 5.0;        // times the samples of those values; the crest of a sine has half as many
 constexpr double kRounding = 1e-9;   // [-] of the range: values closer than this are one value
 
-/// Whether a value at one end holds far more samples than those next to it. @param sign  1: the largest, -1: the smallest
+/// Whether the extreme value has far more samples than the values next to it. @param sign  1: the largest, -1: the smallest
 bool is_rail(const Eigen::Ref<const Eigen::VectorXd>& x, double extreme, double sign, double range) {
   std::vector<double> below;
   for (Index t = 0; t < x.size(); ++t)
     if (std::isfinite(x[t])) below.push_back(sign * (extreme - x[t]));
   std::sort(below.begin(), below.end());
-  std::vector<long> samples;  // of the extreme value and of those next to it
+  std::vector<long> samples;  // of the extreme value and of the next ones
   auto from = below.begin();
   while (from != below.end() && samples.size() <= kNearby) {
     const auto to = std::upper_bound(from, below.end(), *from + kRounding * range);
     samples.push_back(static_cast<long>(to - from));
     from = to;
   }
-  if (from == below.end()) return false;  // the other end is among them, or few values are there
+  if (from == below.end()) return false;  // too few values: the other end is among them
   return static_cast<double>(samples.front()) >
          kPile * static_cast<double>(*std::max_element(samples.begin() + 1, samples.end()));
 }

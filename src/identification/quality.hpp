@@ -19,9 +19,9 @@ struct LoneSample {
 };
 
 /// The sample furthest from the median among those that stand alone: up to three in a row whose neighbours on both sides are
-/// within a twentieth of its distance, the first ones as well as the median of ten. What moves a structure does not stand
-/// alone: an impact is followed by a free decay, an earthquake lasts, and the filter in front of the converter spreads a pulse
-/// over its neighbours.
+/// within a twentieth of its distance, the first ones as well as the median of ten. The motion of a structure does not stand
+/// alone: a free decay follows an impact, an earthquake lasts, and the anti-aliasing filter spreads a pulse over neighbouring
+/// samples.
 /// @param x  NaN or infinite where missing
 /// @return none where no sample stands alone more than ten robust deviations off
 [[nodiscard]] std::optional<LoneSample> lone_sample(const Eigen::Ref<const Eigen::VectorXd>& x);
@@ -33,7 +33,7 @@ class UnusableRecord : public InputError {
   using InputError::InputError;
 };
 
-/// A record whose channel cannot be what it says; where all records of a setup have it, the channel may be left out.
+/// A record with a channel that cannot be a measurement. If all records of a setup have it, the channel may be left out.
 class LyingChannel : public UnusableRecord {
  public:
   using UnusableRecord::UnusableRecord;
@@ -44,14 +44,14 @@ struct ChannelQuality {
   std::string setup, record, channel;
   long samples = 0;
   long missing = 0;                        ///< samples that are NaN
-  long longest_gap = 0;                    ///< longest run of them
+  long longest_gap = 0;                    ///< longest run of missing samples
   long clipped = 0;                        ///< samples at the record's largest or smallest value (clipped_samples)
   double mean = 0.0, rms = 0.0;            ///< [channel's unit]; rms about the mean
   double drift = 0.0;                      ///< change of the fitted straight line from begin to end, in units of the rms
   bool dead = false;                       ///< constant
-  std::optional<LoneSample> lone;          ///< the sample that stands furthest off, alone
+  std::optional<LoneSample> lone;          ///< the farthest sample that stands alone
   std::string left_out;                    ///< why the channel is not used, "" where it is
-  std::optional<double> lag_s, lag_std_s;  ///< of its clock behind the first channel's, where it could be told
+  std::optional<double> lag_s, lag_std_s;  ///< lag of its clock behind the first channel's; empty if unknown
 };
 
 /// @param data (n_samples × n_channels) NaN where missing @param channels  names of the columns
@@ -66,10 +66,10 @@ long fill_gaps(Eigen::MatrixXd& data, const std::vector<std::string>& channels, 
 /// all at such a value, in runs or not, where it holds far more samples than the values next to it. A slow channel stays at its
 /// rail for several samples, a fast one comes back at once.
 ///
-/// The second count asks what no sound record shows. Of a continuous record the extreme value occurs once. Coarse counts give
-/// every value many samples, but the extreme one no more than its neighbours: the tails of noise fall off, and a sine has at
-/// its crest at most 1/(sqrt(2) - 1) = 2.4 times as many samples as one count below. Records of fewer than a dozen values are
-/// judged by their runs alone.
+/// The second count finds a feature that no sound record has. In a continuous record the extreme value occurs once. With coarse
+/// counts every value has many samples, but the extreme one no more than its neighbours: the tails of noise fall off, and a
+/// sine has at its crest at most 1/(sqrt(2) - 1) = 2.4 times as many samples as one count below. Records of fewer than a dozen
+/// values are judged by their runs alone.
 /// @param x  NaN or infinite where missing @param lowest @param highest  of the samples that are there, lowest < highest
 [[nodiscard]] long clipped_samples(const Eigen::Ref<const Eigen::VectorXd>& x, double lowest, double highest);
 

@@ -8,10 +8,10 @@ using Eigen::Index;
 
 namespace {
 
-constexpr Index kWindow = 32;          ///< rows that are looked up together
+constexpr Index kWindow = 32;          ///< rows of a window whose hash is looked up
 constexpr Index kFewestRepeated = 64;  ///< rows of a repeat
-constexpr double kRepeated = 0.01;     ///< [-] of the record, from which on a repeat counts
-constexpr Index kPeriods = 8;          ///< that often after itself: a periodic signal
+constexpr double kRepeated = 0.01;     ///< [-] least share of the record for a repeat
+constexpr Index kPeriods = 8;          ///< repetitions in a row that mean a periodic signal
 
 std::uint64_t mixed(std::uint64_t hash, std::uint64_t word) {  // the multiplier and shift of SplitMix64
   hash = (hash ^ word) * 0xBF58476D1CE4E5B9U;
@@ -26,7 +26,7 @@ std::vector<std::uint64_t> hashes_of(const Samples& raw) {
   return rows;
 }
 
-/// Hash of the window that begins at a row; 0 where half of its rows equal the one before.
+/// Hash of the window that begins at a row; 0 if half of its rows equal the row before.
 std::uint64_t window_at(const std::vector<std::uint64_t>& rows, Index row) {
   std::uint64_t hash = 0;
   Index moves = 0;
@@ -49,14 +49,14 @@ std::optional<RepeatedRows> RowsSeen::add(const Samples& raw, const std::string&
     const std::uint64_t hash = window_at(rows, row);
     const auto seen = hash == 0 ? windows_.end() : windows_.find(hash);
     if (seen == windows_.end()) {
-      // Windows of the first record's rows 0, 32, 64 … are enough: every longer repeat holds one of them.
+      // Windows at rows 0, 32, 64 … of the first record are enough: every longer repeat contains one of them.
       if (hash != 0 && row % kWindow == 0) windows_[hash] = {rows_.size() - 1, row};
       continue;
     }
     const auto [record, first] = seen->second;
     const std::vector<std::uint64_t>& before = rows_[record];
     const bool own = record + 1 == rows_.size();
-    Index begin = 0, length = kWindow;  // before and from the window on
+    Index begin = 0, length = kWindow;  // rows of the repeat before the window, and from its begin on
     while (first - begin > 0 && row - begin > 0 && (!own || first < row - begin) &&
            before[static_cast<std::size_t>(first - begin - 1)] == rows[static_cast<std::size_t>(row - begin - 1)])
       ++begin;

@@ -13,8 +13,8 @@ namespace twindeck::identification {
 
 /// A stretch of samples that a setup has twice.
 struct RepeatedRows {
-  std::string file;                               ///< that has it first
-  Eigen::Index first = 0, again = 0, length = 0;  ///< [samples] where it begins there, where it begins again, how long it is
+  std::string file;                               ///< file with the first occurrence
+  Eigen::Index first = 0, again = 0, length = 0;  ///< [samples] begin in that file, begin of the repeat, length
 };
 
 /// Finds the samples that the records of a setup hold twice, all channels alike and exactly: a file listed as a copy of

@@ -16,30 +16,30 @@ using Eigen::Index;
 
 namespace {
 
-/// What differs between records that move all the time and decays.
+/// Settings that differ between ambient records and decays.
 struct Kind {
-  double prominence;  ///< of a peak over the median about it: what chance does not reach once in the lines of a record
-  double rate;        ///< [-] least rate after decimation, in units of the highest peak
-  double periods;     ///< of the lowest peak in a block
-  bool by_reach;      ///< the highest frequency is how far the motion reaches: modes damped by ten per cent have no peaks
+  double prominence;  ///< [-] of a peak over the median around it; chance reaches it less than once in a record
+  double rate;        ///< [-] least rate after decimation, over the highest peak
+  double periods;     ///< periods of the lowest peak in a block
+  bool by_reach;      ///< the highest frequency is the reach of the motion, because modes damped by ten per cent have no peaks
 };
 constexpr Kind kAmbient{5.0, 3.0, 3.0, false};
 constexpr Kind kDecay{30.0, 12.0, 0.5, true};
 
-/// [-] highest peak over the lowest one that a model of some hundred block rows follows.
+/// [-] highest over lowest frequency that a model of about a hundred block rows can represent
 constexpr double kWidestBand = 16.0;
-/// Lines below which nobody tells a peak from drift.
+/// First lines of a spectrum, where a peak cannot be distinguished from drift.
 constexpr Index kFirstLine = 8;
-constexpr long kShortestSegments = 10;  ///< lengths of a segment in the shortest record
-constexpr long kMostRowsOfAll = 1600;   ///< block rows times channels: the larger matrix takes minutes
+constexpr long kShortestSegments = 10;  ///< segments in the shortest record
+constexpr long kMostRowsOfAll = 1600;   ///< block rows times channels; a larger matrix takes minutes
 constexpr long kMostRows = 200, kFewestRows = 20;
-constexpr long kSamplesLeft = 1280;  ///< after decimation: twenty block rows of eight blocks, twice
+constexpr long kSamplesLeft = 1280;  ///< least samples after decimation: twice twenty block rows in eight blocks
 
 struct Spectrum {
   Eigen::VectorXd frequency_Hz, density;
 };
 
-/// Mean over the channels, each in units of its own mean square; segments averaged.
+/// Spectrum averaged over segments and channels, each channel divided by its mean square.
 Spectrum averaged(const std::vector<Samples>& records, double rate_Hz) {
   const Index shortest = shortest_record(records);
   const signal::WelchOptions options{std::max<Index>(64, shortest / kShortestSegments), 0.5};
@@ -55,7 +55,7 @@ Spectrum averaged(const std::vector<Samples>& records, double rate_Hz) {
   return spectrum;
 }
 
-/// Of whole records, no window: a decay has died away at the end.
+/// Spectrum of whole records without a window, because a decay has ended at the end of the record.
 Spectrum whole(const std::vector<Samples>& records, double rate_Hz) {
   const Index shortest = shortest_record(records);
   Spectrum spectrum;
@@ -73,13 +73,13 @@ Spectrum whole(const std::vector<Samples>& records, double rate_Hz) {
   return spectrum;
 }
 
-/// Frequency above which a thousandth of the motion lies, the noise of the sensors taken off: how far a spectrum reaches whose
+/// Frequency above which a thousandth of the motion lies, without the noise of the sensors. It gives the band of motions whose
 /// peaks are too broad to stand out.
 double reach_of(const Spectrum& spectrum) {
-  constexpr double kShare = 1e-3, kChance = 4.0;  // [-] of the motion, and standard deviations of noise
+  constexpr double kShare = 1e-3, kChance = 4.0;  // [-] of the motion; standard deviations of the noise
   const Index n = spectrum.density.size();
   const double* density = spectrum.density.data();
-  const double floor = upper_median({density + n / 2, density + n}) / std::log(2.0);  // mean of an exponential law
+  const double floor = upper_median({density + n / 2, density + n}) / std::log(2.0);  // mean from the median
   const double all = spectrum.density.sum() - floor * static_cast<double>(n);
   double above = 0.0;
   for (Index i = n - 1; i > 0; --i) {

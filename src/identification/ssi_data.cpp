@@ -18,7 +18,7 @@ namespace {
 std::vector<Eigen::MatrixXd> lagged_products(const Eigen::Ref<const Eigen::MatrixXd>& x,
                                              const Eigen::Ref<const Eigen::MatrixXd>& y, Index n, Index n_lags) {
   std::vector<Eigen::MatrixXd> products(static_cast<std::size_t>(n_lags), Eigen::MatrixXd::Zero(x.cols(), y.cols()));
-  // Pieces that stay in the cache; adjacent samples of a channel are multiplied, so each product is one of small matrices.
+  // Pieces stay in the cache. Each product multiplies the lagged samples of one piece.
   const Index piece = std::max<Index>(512, n_lags);
   for (Index at = 0; at < n; at += piece) {
     const Index length = std::min(piece, n - at);
@@ -43,7 +43,7 @@ void set_first_column(Eigen::MatrixXd& gram, Index row, Index column, const std:
     gram.block(row + static_cast<Index>(i) * lags[k].rows(), column, lags[k].rows(), lags[k].cols()) = lags[k];
 }
 
-/// G_{i,j} = G_{i-1,j-1} + x_{i-1+n} y_{j-1+n}' - x_{i-1} y_{j-1}' for i, j >= 1; of a symmetric part the lower half.
+/// G_{i,j} = G_{i-1,j-1} + x_{i-1+n} y_{j-1+n}' - x_{i-1} y_{j-1}' for i, j >= 1; the lower half only if the part is symmetric.
 void continue_diagonals(Eigen::MatrixXd& gram, const Side& x, const Side& y, Index p, Index n, bool symmetric) {
   const Index l = x.data.cols(), r = y.data.cols();
   for (Index j = 1; j < p; ++j) {
@@ -104,7 +104,7 @@ DataDriven ssi_data(const std::vector<Eigen::MatrixXd>& grams, double samples, I
                      "raise block_rows or lower maximum_order");
   DataDriven found;
   found.samples = samples;
-  // What the anti-aliasing filter removed leaves the past nearly singular: 1e-12 of its mean power keeps the factor real.
+  // The anti-aliasing filter leaves the past nearly singular. Adding 1e-12 of its mean power keeps the factor real.
   const double floor = 1e-12 * gram.topLeftCorner(past, past).trace() / static_cast<double>(past);
   gram.diagonal().head(past).array() += floor;
   found.past_factor = linalg::cholesky_factor(gram.topLeftCorner(past, past));

@@ -22,8 +22,8 @@ namespace twindeck::identification {
 
 /// Data-driven stochastic subspace identification, reference-based, unweighted principal components. With the LQ decomposition
 /// of the Hankel matrix, here L = Cholesky factor of its Gram matrix (the same L up to signs), the projection of the future on
-/// the past is L21 Q1ᵀ, and its leading left singular vectors are those of L21: the projection itself, as long as the record,
-/// is never formed.
+/// the past is L21 Q1ᵀ, and its leading left singular vectors are those of L21: the projection itself, which is as long as the
+/// record, is never formed.
 struct DataDriven {
   Observability observability;
   Eigen::MatrixXd past_factor;  ///< L11 (n_references p square), for the covariance

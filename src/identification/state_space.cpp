@@ -98,9 +98,8 @@ Eigen::MatrixXd thin_q(const Eigen::MatrixXd& x) {
   return qr.householderQ() * Eigen::MatrixXd::Identity(x.rows(), x.cols());
 }
 
-/// From an orthonormal basis w of the leading right space: A w = Q (R), R = X S Yᵀ; u = Q X, v = w Y. Before that two steps of
-/// subspace iteration wash out what the square's rounding, eps sigma_1²/sigma_j², has left of the smaller vectors in the larger
-/// ones.
+/// From an orthonormal basis w of the leading right space: A w = Q (R), R = X S Yᵀ; u = Q X, v = w Y. Two steps of subspace
+/// iteration come first. They remove the error eps sigma_1²/sigma_j² of the vectors from the rounding of the squared matrix.
 LeadingSvd refined(const Eigen::MatrixXd& a, Eigen::MatrixXd w) {
   for (int step = 0; step < 2; ++step) w = thin_q(linalg::product(a, thin_q(linalg::product(a, w)), true));
   const Eigen::MatrixXd image = linalg::product(a, w), q = thin_q(image);

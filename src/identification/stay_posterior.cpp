@@ -19,7 +19,7 @@ namespace {
 
 double ratio_at(double a, double xi) { return a * std::sqrt(1.0 + a * a / (xi * xi)) / pi; }
 
-/// Wave number of the beam without sag: a = n pi + 2 phi(a), a contraction that gains a digit a turn at xi = 6.
+/// Wave number of the beam without sag: a = n pi + 2 phi(a), a contraction that gains one digit per iteration at xi = 6.
 double wave_number(int number, const TensionedBeam& beam) {
   const double hinged = number * pi;
   if (beam.fixity <= 0.0) return hinged;
@@ -35,7 +35,7 @@ double wave_number(int number, const TensionedBeam& beam) {
   return a;
 }
 
-/// What vanishes at the wave numbers of the odd modes with sag: (A + C)(w² - lambda²) + 2 lambda² (A tan(a/2)/a + C
+/// Function whose zeros are the wave numbers of the odd modes with sag: (A + C)(w² - lambda²) + 2 lambda² (A tan(a/2)/a + C
 /// tanh(b/2)/b), w = pi f/c, times cos(a/2), so that it has no poles.
 double odd_mode(double a, const TensionedBeam& beam) {
   const double b = std::sqrt(a * a + beam.xi * beam.xi), cosine = std::cos(0.5 * a), sine = std::sin(0.5 * a),
@@ -46,10 +46,10 @@ double odd_mode(double a, const TensionedBeam& beam) {
          2.0 * beam.lambda_squared * (first * sine / a + second * half / b);
 }
 
-/// Its root between two points of opposite sign: regula falsi, an end that stays counts half (Illinois).
+/// Root of odd_mode between two points of opposite sign, by regula falsi with the Illinois rule.
 double odd_root(double low, double high, const TensionedBeam& beam) {
   double at_low = odd_mode(low, beam), at_high = odd_mode(high, beam), root = low;
-  if ((at_low > 0.0) == (at_high > 0.0)) return low;  // a sag so small that the root has not moved as far
+  if ((at_low > 0.0) == (at_high > 0.0)) return low;  // the sag is so small that rounding hides the shift of the root
   for (int turn = 0; turn < 100 && high - low > 1e-12 * high; ++turn) {
     const double before = root;
     root = (low * at_high - high * at_low) / (at_high - at_low);
@@ -82,12 +82,12 @@ namespace {
 
 /// Bounds of the priors: from a short hanger that is nearly a beam to a string. Irvine's crossover lies at 4 pi² = 39.
 constexpr double kLeastXi = 4.0, kMostXi = 4000.0, kMostLambdaSquared = 60.0;
-/// [-] relative scatter of a harmonic that no deviation holds: mass and section vary along a cable.
+/// [-] relative scatter of a harmonic beyond its stated deviation, because mass and section vary along a cable.
 constexpr double kCableScatter = 1e-4;
-/// Degrees of freedom of the factor of all deviations. A cable with sleeves or dampers is no beam: its harmonics lie ten and
-/// more of their deviations off the formula, so the factor is hardly known beforehand.
+/// Degrees of freedom of the common factor of all deviations. A cable with sleeves or dampers is no ideal beam: its harmonics
+/// differ from the formula by ten deviations and more, so the factor is hardly known beforehand.
 constexpr double kFactorFreedom = 1.0;
-constexpr double kSectionDeviation = 0.05;  ///< [-] of xi: EI of a section is known to ten per cent
+constexpr double kSectionDeviation = 0.05;  ///< [-] of xi, from ten per cent of EI
 
 struct Ends {
   double fixity, prior;
@@ -108,12 +108,12 @@ void check_harmonics(const std::vector<Harmonic>& harmonics) {
   if (harmonics.empty()) throw InputError({"", 0, "stay"}, "has no harmonic", "identify modes of the stay");
 }
 
-/// A normal law cut off outside an interval: logarithm of what is left of it, mean and deviation of that.
+/// A normal law cut off outside an interval: logarithm of the remaining probability, its mean and deviation.
 struct CutNormal {
   double log_share = 0.0, mean = 0.0, deviation = 0.0;
   CutNormal(double centre, double sigma, double low, double high) {
     const double a = (low - centre) / sigma, b = (high - centre) / sigma;
-    // Far outside, the law is an exponential from the nearer bound on.
+    // Far outside the interval, the law is nearly exponential from the nearer bound.
     constexpr double kFar = 6.0;
     if (a > kFar || b < -kFar) {
       const double near = a > kFar ? a : -b;
@@ -149,7 +149,7 @@ class Likelihood {
   /// Sag by Gauss-Newton, its likelihood taken as normal about the best value and cut off at the bounds of its prior.
   /// @param sag  to begin with
   [[nodiscard]] StayPart at(double xi, double fixity, double sag) const {
-    constexpr double kSettled = 2e-3;  // of ln(1 + lambda²): what is left is taken by the last step, the error by its square
+    constexpr double kSettled = 2e-3;  // of ln(1 + lambda²); the last step removes the rest, with an error of second order
     Line line;
     for (int turn = 0; turn < 20; ++turn) {
       line = line_at({xi, std::expm1(sag), fixity}, sag);
@@ -158,7 +158,7 @@ class Likelihood {
       sag = next;
     }
     const double scale = (kFactorFreedom + line.chi2) / (kFactorFreedom + free_);
-    // A sag that the harmonics do not feel has its prior.
+    // If the harmonics do not depend on the sag, the prior decides.
     const double curvature = std::max(line.curvature / scale, 1e-4);
     const double centre = sag + line.step, sigma = 1.0 / std::sqrt(curvature);
     const CutNormal cut(centre, sigma, 0.0, kMostSag);
@@ -177,7 +177,7 @@ class Likelihood {
  private:
   static inline const double kMostSag = std::log1p(kMostLambdaSquared);
 
-  /// ln f_n - ln r_n at one sag: weighted mean, misfit, and the change of the sag that would lessen it most.
+  /// ln f_n - ln r_n at one sag: weighted mean, misfit, and the Gauss-Newton step of the sag.
   struct Line {
     double mean = 0.0, chi2 = 0.0, slope = 0.0, step = 0.0, curvature = 0.0;
   };
@@ -227,17 +227,17 @@ struct Piece {
   [[nodiscard]] double log_mass() const { return part.log_weight + std::log(2.0 * half); }
 };
 
-/// The interval cut into pieces that are small where the likelihood changes.
+/// Cuts the interval into pieces that are small where the likelihood varies.
 std::vector<Piece> cut_finely(const Likelihood& likelihood, double fixity, Effort effort) {
   constexpr int kFirst = 24, kLevels = 14;
   const bool quick = effort == Effort::quick;
-  const double likely = quick ? 5.0 : 8.0;  // [nats] below the largest: less has no share worth cutting
-  const double flat = quick ? 1.0 : 0.3;    // [nats] between neighbours: the sum is then known to ten per cent, or to one
+  const double likely = quick ? 5.0 : 8.0;  // [nats] below the largest weight; smaller pieces are not cut further
+  const double flat = quick ? 1.0 : 0.3;    // [nats] between neighbours; the sum is then accurate to ten or to one per cent
   const auto piece_at = [&](double x, double half, double sag) {
     return Piece{x, half, likelihood.at(kLeastXi * std::pow(kMostXi / kLeastXi, x), fixity, sag)};
   };
   std::vector<Piece> pieces;
-  double sag = std::log1p(3.0);  // of a stay that sags a little
+  double sag = std::log1p(3.0);  // first value: a stay with little sag
   for (int i = 0; i < kFirst; ++i) {
     pieces.push_back(piece_at((i + 0.5) / kFirst, 0.5 / kFirst, sag));
     sag = pieces.back().part.sag;

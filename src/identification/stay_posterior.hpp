@@ -9,8 +9,8 @@ namespace twindeck::identification {
 struct TensionedBeam {
   double xi = 1e4;              ///< L sqrt(T/EI): 6 for a short hanger, above 1000 for a string
   double lambda_squared = 0.0;  ///< Irvine's parameter (m g L cos/T)² E A L/(T L_e) [-], >= 0
-  /// Fixity s of the ends: 0 hinged, 1 clamped. Between them the rotational stiffness is s/(1 - s) sqrt(T EI), in units of what
-  /// a long tensioned beam resists the rotation of its end with.
+  /// Fixity s of the ends: 0 hinged, 1 clamped. Between them the rotational stiffness is s/(1 - s) sqrt(T EI), in units of the
+  /// rotational stiffness of a long tensioned beam's end.
   double fixity = 0.0;
 };
 
@@ -51,8 +51,9 @@ struct StayPart {
   double sag = 0.0, sag_deviation = 0.0;  ///< of ln(1 + lambda²)
 };
 
-/// What the harmonics say of a stay whose bending stiffness, sag and ends are unknown: a sum over hinged ends, clamped ends and
-/// springs between, and over xi, each part weighted by its likelihood; c and ln(1 + lambda²) follow by least squares in each,
+/// Posterior of a stay whose bending stiffness, sag and ends are unknown, given its harmonics. It is a sum over xi and over
+/// hinged ends, clamped ends and springs between. Each part is weighted by its likelihood; c and ln(1 + lambda²) follow by
+/// least squares in each part,
 ///
 ///     ln f_n = ln c + ln r_n(xi, lambda², ends) + e_n,    e_n ~ s sigma_n/f_n,
 ///
@@ -61,10 +62,10 @@ struct StayPart {
 /// (T/m)/(EI/m) within ten per cent of EI.
 struct StayPosterior {
   std::vector<StayPart> parts;
-  double log_evidence = 0.0;  ///< logarithm of the density of ln f_n under all models together
+  double log_evidence = 0.0;  ///< logarithm of the density of ln f_n, over all models
 };
 
-/// Quick: hinged and clamped ends alone.
+/// quick: only hinged and clamped ends.
 enum class Effort { quick, full };
 
 /// @param harmonics  one or more, numbers distinct, frequencies and deviations positive

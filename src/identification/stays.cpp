@@ -26,7 +26,7 @@ StaySection section_of(const StaySettings* settings) {
   return section;
 }
 
-/// Fit of the modes of a record. Where fewer harmonics are asked for than there are, of these alone.
+/// Fit of the modes of a record. If fewer harmonics are configured than found, only those are used.
 StayFit stay_fit_of(const Identification& found, const StaySection& section, const IdentificationSettings& config) {
   std::vector<Harmonic> frequencies;
   for (std::size_t m = 0; m < found.modes.size(); ++m) {
@@ -57,10 +57,10 @@ IdentificationSettings stay_settings(const IdentificationSettings& config) {
   own.decimation = config.stay_decimation;
   own.block_rows = config.stay_block_rows;
   own.maximum_order = config.stay_maximum_order;
-  own.order_is_default = true;  // few stays have twenty modes: what the block rows do not carry is not missed
+  own.order_is_default = true;  // few stays have twenty modes, so a lowered order is no loss
   own.lowest_Hz = 0.0;
   own.highest_Hz = 0.0;
-  own.periodic.largest_damping = 0.0;  // a taut string's modes are multiples with next to no damping, and no machine's lines
+  own.periodic.largest_damping = 0.0;  // a taut string's modes are no machine's lines
   return own;
 }
 

@@ -13,17 +13,17 @@ struct StayResult {
   std::string stay, condition;
   double length_m = 0.0;  ///< 0 where not configured
   std::vector<ChannelQuality> quality;
-  std::string note;  ///< limits that the record does not carry; empty for none
+  std::string note;  ///< limits that were lowered because the record is short; empty for none
   struct Mode {
     int harmonic = 0;
     double frequency_Hz = 0.0, frequency_std_Hz = 0.0, damping_ratio = 0.0, damping_ratio_std = 0.0;
   };
   std::vector<Mode> modes;  ///< ascending in harmonic
   bool fitted = false;      ///< two harmonics or more
-  StayFit fit;              ///< without tension where the length is not known: c and lambda² hold all the same
+  StayFit fit;              ///< without tension if the length is unknown; c and lambda² are valid anyway
 };
 
-/// The settings that records of stays are read and identified with.
+/// Settings for the records of stays.
 [[nodiscard]] IdentificationSettings stay_settings(const IdentificationSettings& config);
 
 /// Identifies records of kind stay, numbers their modes as harmonics and fits a tensioned beam to them

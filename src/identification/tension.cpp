@@ -13,11 +13,10 @@ namespace twindeck::identification {
 namespace {
 
 constexpr double kGravity_m_s2 = 9.81;
-constexpr double kSeen = 0.85;           ///< chance that a record shows a harmonic that lies below the highest it shows
-constexpr double kWorthComparing = 7.0;  ///< [nats] below the most probable numbering: less has no share
+constexpr double kSeen = 0.85;           ///< probability that a record shows a harmonic below the highest one
+constexpr double kWorthComparing = 7.0;  ///< [nats] below the most probable numbering; less probable ones are dropped
 constexpr double kWorthNaming = 0.01;    ///< probability
 
-/// A numbering with its posterior.
 struct Explained {
   Numbers numbers;
   std::vector<Harmonic> harmonics;
@@ -66,7 +65,6 @@ std::vector<Share> shares_of(const std::vector<Explained>& numberings) {
   return shares;
 }
 
-/// A mixture of normal laws.
 struct Mixture {
   struct Law {
     double weight, mean, deviation;
@@ -93,7 +91,7 @@ struct Mixture {
     }
     return 0.5 * (from + to);
   }
-  /// Median, and the shortest interval: with two kinds of ends that explain the data, equal tails would cut both of them.
+  /// Median, and the shortest interval. If two kinds of ends explain the data, an interval with equal tails would cut both.
   [[nodiscard]] Bounded bounds(double level) const {
     constexpr int kSteps = 20;
     Bounded best{quantile(0.5), 0.0, 1e300};
@@ -182,8 +180,8 @@ StayFit fit_of(const std::vector<Explained>& numberings, const StaySection& sect
   return fit;
 }
 
-/// Numberings of the coarse grid, each renumbered by the beam that explains it best, and without what that beam does not
-/// explain.
+/// Numberings from the coarse grid. Each is renumbered with its best beam; frequencies that this beam does not explain are left
+/// out.
 std::vector<Explained> compared(const std::vector<Harmonic>& frequencies, const StaySection& section, double lowest_Hz,
                                 double highest_Hz) {
   constexpr double kReach = 0.05;        // of the spacing
@@ -234,9 +232,9 @@ StayFit fit_numbered(const std::vector<Harmonic>& harmonics, const StaySection& 
 
 namespace {
 
-constexpr int kHighest = 16;          ///< harmonic that is thought of
-constexpr int kHighestThrough = 12;   ///< number that a single frequency may have
-constexpr double kCoarseReach = 0.2;  ///< [-] of the spacing: the grid is as coarse as that
+constexpr int kHighest = 16;          ///< highest harmonic in the search
+constexpr int kHighestThrough = 12;   ///< highest number of the frequency that fixes c
+constexpr double kCoarseReach = 0.2;  ///< [-] of the spacing of harmonics, the resolution of the grid
 constexpr std::size_t kMostCandidates = 12;
 
 struct Scored {
@@ -249,7 +247,7 @@ std::vector<std::vector<double>> coarse_grid() {
   std::vector<std::vector<double>> grid;
   for (const double fixity : {0.0, 1.0}) {
     for (double xi = 4.5; xi < 1000.0; xi *= 1.4) {
-      // In equal steps of the first harmonic's ratio, which sag raises from 1 to 2.2.
+      // Equal steps of the first harmonic's ratio; sag raises it from 1 to 2.2.
       for (int step = 0; step <= 12; ++step) {
         const double lambda_squared = 40.0 * step / 12.0 * (1.0 + step / 12.0) / 2.0;
         std::vector<double> ratios;

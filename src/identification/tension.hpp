@@ -16,8 +16,8 @@ struct Bounded {
 /// Frequencies numbered as harmonics of one stay.
 struct Numbering {
   std::vector<Harmonic> harmonics;     ///< ascending in number
-  std::vector<std::size_t> positions;  ///< of each among the frequencies
-  double probability = 0.0;            ///< among the numberings that were compared
+  std::vector<std::size_t> positions;  ///< positions of the harmonics among the frequencies
+  double probability = 0.0;            ///< among the compared numberings
 };
 
 /// Force, sag, bending stiffness and ends of a stay.
@@ -26,16 +26,16 @@ struct StayFit {
   Bounded tension_per_mass;            ///< T/m = (2 L c)² [m²/s²]
   Bounded lambda_squared;              ///< Irvine's parameter
   Bounded xi;                          ///< L sqrt(T/EI)
-  double hinged = 0.0, clamped = 0.0;  ///< probabilities of the ends; the rest: springs between
+  double hinged = 0.0, clamped = 0.0;  ///< probabilities of the ends; the rest belongs to springs
   double residual = 0.0;               ///< RMS of the normalised residuals of the likeliest beam
   Numbering numbering;                 ///< the most probable
-  std::vector<Numbering> others;       ///< of the others those above one per cent, the most probable first
+  std::vector<Numbering> others;       ///< other numberings above one per cent, the most probable first
 };
 
-/// Which of the frequencies are which harmonics, and what follows for the stay. Numberings compete by their evidence
-/// (stay_posterior): a frequency that is no harmonic may have any value, and a harmonic below the highest one is missing with a
-/// chance of fifteen per cent. The intervals hold all numberings, all kinds of ends, and what the parabola neglects, the excess
-/// length (g L/(T/m))²/24 of the arc over the chord.
+/// Numbers the frequencies of a stay as harmonics, and estimates its force, sag and ends. Numberings compete by their evidence
+/// (stay_posterior). A frequency that is no harmonic may have any value. A harmonic below the highest one is missing with a
+/// probability of fifteen per cent. The intervals include all numberings, all kinds of ends, and the error of the parabola, the
+/// excess length (g L/(T/m))²/24 of the arc over the chord.
 /// @param frequencies  modes of the record, ascending; their numbers are not read
 /// @param lowest_Hz, highest_Hz  range of c; highest 0: any
 /// @return  without harmonics where fewer than two frequencies belong together
@@ -55,8 +55,8 @@ using Numbers = std::map<int, std::size_t>;
 [[nodiscard]] Numbers numbers_near(const std::vector<double>& frequencies_Hz, double c_Hz, const TensionedBeam& beam,
                                    double reach, double least = 0.0);
 
-/// Numberings worth comparing: those of a coarse grid of beams, each put through each frequency under each number, the ones
-/// that explain the most first. @param lowest_Hz, highest_Hz  range of c; highest 0: any
+/// Numberings worth comparing: those of a coarse grid of beams, each scaled so that each frequency is each harmonic; numberings
+/// with the most explained frequencies come first. @param lowest_Hz, highest_Hz  range of c; highest 0: any
 [[nodiscard]] std::vector<Numbers> candidate_numbers(const std::vector<double>& frequencies_Hz, double lowest_Hz,
                                                      double highest_Hz);
 

@@ -42,7 +42,7 @@ const Eigen::MatrixXd& factor_of(const ShiftModels& models, const PoleFactors& f
       .of[static_cast<std::size_t>(model - models.orders.begin())][static_cast<std::size_t>(at - model->poles.begin())];
 }
 
-/// The factor of a pole of the models, its shape turned towards the reference.
+/// The factor of a pole, with its shape rotated to the phase of the reference.
 Eigen::MatrixXd turned_factor(const ShiftModels& models, const PoleFactors& factors, const Pole& pole,
                               const Eigen::VectorXcd& reference) {
   Eigen::MatrixXd factor = factor_of(models, factors, pole);

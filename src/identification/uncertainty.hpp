@@ -13,8 +13,8 @@ struct ModeDeviation {
   double frequency_Hz = 0.0;  ///< from the data's covariance; an Identification's also holds the scatter over model orders
   double damping_ratio = 0.0;
   Eigen::VectorXd shape_real, shape_imag;  ///< (n_outputs) of the entries of the unit-norm shape
-  /// (2 + 2 n_outputs × n_changes) frequency [Hz], damping ratio, real and imaginary parts of the shape: F Fᵀ is the
-  /// covariance of the features of this mode. F_1 F_2ᵀ is that between two modes of the same record.
+  /// (2 + 2 n_outputs × n_changes) frequency [Hz], damping ratio, real and imaginary parts of the shape: F Fᵀ is the covariance
+  /// of these values, and F_1 F_2ᵀ the covariance between two modes of the same record.
   Eigen::MatrixXd factor;
 };
 
@@ -30,11 +30,12 @@ struct PoleFactors {
 /// Standard deviation of a pole's frequency [Hz]. @param pole  of the models
 [[nodiscard]] double frequency_deviation(const ShiftModels& models, const PoleFactors& factors, const Pole& pole);
 
-/// Standard deviation of the difference of two poles' frequencies [Hz]: the halves of a split pole move against each other.
+/// Standard deviation of the difference of two poles' frequencies [Hz], with their correlation: the halves of a split pole move
+/// against each other.
 [[nodiscard]] double difference_deviation(const ShiftModels& models, const PoleFactors& factors, const Pole& pole,
                                           const Pole& other);
 
-/// The deviations that a factor means: the norms of its rows. @param factor  as in ModeDeviation
+/// Standard deviations from a factor: the norms of its rows. @param factor  as in ModeDeviation
 [[nodiscard]] ModeDeviation deviation_of_factor(Eigen::MatrixXd factor);
 
 /// Deviations of modes whose frequency, damping and shape entries are medians over model orders. For each change, the median of

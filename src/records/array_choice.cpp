@@ -43,7 +43,7 @@ bool is_step(const std::string& name) {
 ArrayChoice choose_arrays(const std::vector<NamedArray>& arrays, const std::vector<std::string>& others,
                           const std::string& file) {
   ArrayChoice choice;
-  double largest = 0.0;  // a damaged file may say sizes whose product is beyond whole numbers
+  double largest = 0.0;  // a damaged file may state sizes whose product exceeds whole numbers
   std::size_t best = 0;
   for (std::size_t i = 0; i < arrays.size(); ++i) {
     const double size = static_cast<double>(arrays[i].rows) * static_cast<double>(arrays[i].columns);

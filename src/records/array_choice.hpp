@@ -22,13 +22,13 @@ struct ArrayChoice {
   std::vector<std::size_t> data;      ///< one matrix, or several vectors of one length
   bool transposed = false;            ///< channels × samples
   int time = -1;                      ///< vector of times
-  std::vector<std::size_t> scalars;   ///< single numbers, that may say the rate
+  std::vector<std::size_t> scalars;   ///< single numbers; one of them may be the rate
   std::vector<std::size_t> left_out;  ///< further matrices of as many samples
 };
 
-/// The largest matrix is the record, its longer side the samples; vectors of one length are channels of their own. A vector of
-/// that length that is named t or time is the time.
-/// @param others  what the file holds besides, "'acc' has 3 dimensions", for the message
+/// Chooses the record in a file of arrays. The largest matrix is the record; samples run along its longer side. Without a
+/// matrix, vectors of one length are the channels. A vector of that length named t or time is the time.
+/// @param others  other content of the file, "'acc' has 3 dimensions", for the message
 /// @throws InputError  if no array has sixteen values or more
 [[nodiscard]] ArrayChoice choose_arrays(const std::vector<NamedArray>& arrays, const std::vector<std::string>& others,
                                         const std::string& file);
@@ -40,12 +40,13 @@ void list_channels(const std::vector<NamedArray>& arrays, const ArrayChoice& cho
 /// @param columns  of the matrix
 void name_channels(const std::vector<std::string>& texts, Eigen::Index columns, RecordInfo& info);
 
-/// Rate [Hz] by a scalar's name (fs, rate, sampling frequency …, dt, ts, dt_ms …) and value; 0 for other names. Of a step whose
-/// name has no unit, the unit that gives 1 to 100,000 Hz counts.
+/// Rate [Hz] by a scalar's name (fs, rate, sampling frequency …, dt, ts, dt_ms …) and value; 0 for other names. If the name of
+/// a time step has no unit, the unit is the one that gives 1 to 100,000 Hz.
 [[nodiscard]] double rate_of(const std::string& name, double value);
 
-/// Enters what the vector of times says, in the unit at the end of its name ("time_ms") if it has one, and what scalars say.
-/// @param values_of  an array's values, NaN where they cannot be had
+/// Enters the rate from the vector of times and from the scalars. The unit of the times is the ending of their name
+/// ("time_ms"), if there is one.
+/// @param values_of  values of an array, NaN if they cannot be read
 void read_rates(const std::vector<NamedArray>& arrays, const ArrayChoice& choice,
                 const std::function<Eigen::VectorXd(std::size_t)>& values_of, RecordInfo& info);
 

@@ -22,7 +22,7 @@ constexpr std::uint64_t kMostInflation = 1032;
 struct ByteSource::State {
   fs::path file;
   std::ifstream in;
-  std::uint64_t left = 0;  ///< bytes of the part that were not taken from the file
+  std::uint64_t left = 0;  ///< bytes of the part that are still to be read from the file
   std::uint64_t position = 0;
   bool compressed = false, ended = false;
   z_stream stream{};
@@ -36,7 +36,6 @@ struct ByteSource::State {
     throw InputError({file.string(), 0, ""}, problem, "the file was cut off or is damaged; copy it again");
   }
 
-  /// Bytes as they lie in the file.
   std::size_t take(char* to, std::size_t n, const std::string& what) {
     const auto wanted = static_cast<std::size_t>(std::min<std::uint64_t>(n, left));
     if (!in.read(to, static_cast<std::streamsize>(wanted))) fail("breaks off in " + what);

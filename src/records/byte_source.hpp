@@ -21,13 +21,12 @@ class ByteSource {
   void read(char* to, std::size_t n, const std::string& what);
   std::string read(std::size_t n, const std::string& what);
   void skip(std::uint64_t n, const std::string& what);
-  /// Reads compressed data to their end, which holds their checksum. @throws InputError  if it is another, or the end is not
-  /// there
+  /// Reads compressed data to their end, which holds their checksum. @throws InputError  if the checksum is wrong or the data
+  /// break off
   void check_end(const std::string& what);
   /// Bytes that were read or skipped.
   [[nodiscard]] std::uint64_t position() const;
-  /// The most that may follow from here: what is left of the part, or 1032 times that where it is compressed (the most that
-  /// zlib does).
+  /// Upper bound of the bytes that follow: the rest of the part, times 1032 for compressed data (the most that zlib reaches).
   [[nodiscard]] std::uint64_t most_left() const;
 
  private:

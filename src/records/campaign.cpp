@@ -84,7 +84,7 @@ void check_record(const Campaign& campaign, const CampaignRecord& record, const 
         "add a table [" + record.condition + "] there");
 }
 
-/// The rate that the file's stamps say. Where their unit is not known, it is the one that comes nearest to the rate stated.
+/// The rate according to the time stamps. If their unit is not known, it is chosen to come nearest to the stated rate.
 double rate_beside(const RecordInfo& info, double stated_Hz) {
   double nearest = info.rate_Hz;
   if (info.clock_unit_known || info.rate_Hz != info.clock.rate_Hz) return nearest;
@@ -95,8 +95,8 @@ double rate_beside(const RecordInfo& info, double stated_Hz) {
   return nearest;
 }
 
-/// A clock that is none, and a rate other than the one stated, are refused.
-/// @return "" or a note on a rate that differs by less than what counts
+/// Refuses an unusable clock, and a rate other than the stated one.
+/// @return "", or a note on a difference of rates that is small enough
 std::string check_rate(const Campaign& campaign, const CampaignRecord& record, const RecordInfo& info) {
   const RecordClock& clock = info.clock;
   const Place place{record.file.string(), line_of(info, std::max(clock.steps_back, clock.changes_rate)), ""};
@@ -129,7 +129,7 @@ std::string check_rate(const Campaign& campaign, const CampaignRecord& record, c
                      stated, 100.0 * off);
 }
 
-/// What the file says of itself, for people: its notes, and the names that it was not read by.
+/// Notes about the file, for people, and the warning about its channel names.
 std::vector<std::string> notes_of(const CampaignRecord& record, const RecordInfo& info, const ColumnMatch& match) {
   auto notes = each_of(info.notes, [&](const std::string& note) { return record.file.string() + ": " + note; });
   if (!match.warning.empty()) notes.push_back(match.warning);
@@ -143,7 +143,7 @@ double gain_of(const Campaign& campaign, const CampaignRecord& record, std::size
   const CampaignChannel& channel = campaign.channel(record.channels[c]);
   const auto known = recorded_unit(unit);
   if (!known || known->si_factor <= 0.0) return channel.gain;
-  constexpr double other_unit = 2.0;  // two units of a quantity lie a factor of 9.8 apart or more; a calibration stays below
+  constexpr double other_unit = 2.0;  // units of one quantity differ by a factor of 9.8 or more, a calibration by less than 2
   const double stated = known->si_factor, used = std::abs(channel.gain);
   const bool other_quantity = known->quantity != channel.quantity;
   if (!other_quantity && used <= other_unit * stated && used >= stated / other_unit) return channel.gain;
@@ -160,7 +160,7 @@ double gain_of(const Campaign& campaign, const CampaignRecord& record, std::size
   return stated * (own > 0.0 ? channel.gain / own : channel.gain < 0.0 ? -1.0 : 1.0);
 }
 
-/// The same samples of the same channels, listed as two records of a kind, would count as two measurements.
+/// Refuses the same samples of the same channels in two records of a kind: they would count as two measurements.
 void refuse_twice(const std::vector<CampaignRecord>& records, const CampaignRecord& record, const fs::path& file) {
   for (const CampaignRecord& other : records) {
     std::error_code gone;
@@ -175,8 +175,8 @@ void refuse_twice(const std::vector<CampaignRecord>& records, const CampaignReco
   }
 }
 
-/// Numbers beyond this are no record of a motion or force in any unit; their squares would be beyond what a number can hold. A
-/// channel that stays below the second one all the time has squares that a number takes for zero.
+/// Larger values are no motion or force in any unit, and their squares overflow. If no value of a channel exceeds the second
+/// number, its squares vanish.
 constexpr double kLargestValue = 1e100, kSmallestPeak = 1e-100;
 
 void refuse_absurd(const RecordSamples& samples, const CampaignRecord& record) {
@@ -332,8 +332,8 @@ RecordSamples read_record(const Campaign& campaign, const CampaignRecord& record
     if (!rate.empty()) samples.notes.push_back(rate);
     return found.columns;
   };
-  // What the file's columns are called is known at its end only: a large file is walked through twice, so that columns that
-  // nobody asked for never lie in memory.
+  // The names of the columns are known only at the end of the file. A large file is read twice, so that columns that nobody
+  // asked for are never in memory.
   if (io::require_regular_file(record.file) > large) {
     Index rows = 0;
     const auto columns = match(records::scan(

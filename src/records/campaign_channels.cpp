@@ -18,7 +18,7 @@ using Eigen::Index;
 
 namespace {
 
-/// Direction cosines may be this far from length 1, as in the other tables of channels: rounding, no scale.
+/// [-] Direction cosines may differ from length 1 by this rounding, as in the other tables of channels.
 constexpr double kLengthTolerance = 0.02;
 
 std::string one_of(const io::CsvTable& table, std::size_t row, const std::string& column,

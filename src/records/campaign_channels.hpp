@@ -14,7 +14,7 @@ struct CampaignChannel {
   Eigen::Vector3d position_m = Eigen::Vector3d::Constant(std::numeric_limits<double>::quiet_NaN());  ///< NaN where not given
   Eigen::Vector3d direction = Eigen::Vector3d::Constant(std::numeric_limits<double>::quiet_NaN());   ///< cosines dx, dy, dz
   std::string quantity = "acceleration";  ///< acceleration | velocity | displacement; of an input also force
-  std::string unit;                       ///< of what is recorded, as it stands there
+  std::string unit;                       ///< unit of the recorded values, as the table has it
   double gain = 1.0;                      ///< physical value in SI units = gain · recorded value
   bool reference = false;                 ///< stays at its place in every setup
   bool is_input = false;                  ///< role "input": a measured excitation

@@ -26,7 +26,7 @@ std::string folded(const std::string& name) {
   return text;
 }
 
-/// Position of the only channel of another name like that, by `same`; -1 for none or several.
+/// Position of the one channel with a name, or another name, that `same` accepts; -1 for none or several.
 template <typename Same>
 Index only_one(const RecordInfo& info, const Same& same) {
   Index found = -1;
@@ -39,8 +39,8 @@ Index only_one(const RecordInfo& info, const Same& same) {
   return found;
 }
 
-/// The channels by a further name of theirs, or by their names in another spelling, each once; with a note. Empty if not all
-/// are found.
+/// Matches channels by their other names, or by another spelling of their names, each once, with a note. Empty if not all are
+/// found.
 ColumnMatch by_other_names(const RecordInfo& info, const std::vector<std::string>& channels,
                            const std::filesystem::path& file) {
   ColumnMatch match;
@@ -53,7 +53,7 @@ ColumnMatch by_other_names(const RecordInfo& info, const std::vector<std::string
     const std::string& own = info.channels[static_cast<std::size_t>(at)].name;
     if (own != name) pairs.push_back(fmt::format("{} is its '{}'", name, own));
   }
-  constexpr std::size_t most = 4;  // pairs that are told
+  constexpr std::size_t most = 4;  // pairs that are named in the warning
   if (pairs.size() > most) pairs.resize(most);
   match.warning = fmt::format("{}: names the channels in another way: {}", file.string(), fmt::join(pairs, ", "));
   return match;
@@ -77,7 +77,6 @@ Index column_number(const std::string& text) {
   return std::stol(text.substr(word.size()));
 }
 
-/// The columns that campaign.toml states.
 ColumnMatch by_key(const RecordInfo& info, const std::vector<std::string>& columns, const std::filesystem::path& file) {
   const std::vector<std::string> names = each_of(info.channels, &ChannelInfo::name);
   ColumnMatch match;
@@ -129,7 +128,7 @@ ColumnMatch match_columns(const RecordInfo& info, const std::vector<std::string>
         fmt::format("is one of {} names over rows of another width, so that none can be told", info.unaligned_header.size()),
         "give each column a name");
   if (!match.columns.empty()) {
-    std::vector<std::string> left;  // names that are not already somebody else's
+    std::vector<std::string> left;  // names that match no other channel
     std::ranges::copy_if(names, std::back_inserter(left), [&](const std::string& name) { return !contains(channels, name); });
     throw InputError({file.string(), 0, missing},
                      "is no channel of the file, which names others that were asked for" + did_you_mean(missing, left),

@@ -36,7 +36,7 @@ Action action_of(const std::string& text, const Place& place) {
   return static_cast<Action>(at - action_names().begin());
 }
 
-/// What one [[correction]] says, before it is known whether that makes sense.
+/// Content of one [[correction]], not checked yet.
 struct Said {
   std::optional<std::string> channel, action, with;
   std::optional<double> factor;
@@ -105,7 +105,7 @@ std::optional<std::size_t> undone_by(const std::vector<Correction>& list, const 
     const bool turned = earlier.channel == next.with && earlier.with == next.channel;
     if (earlier.action == next.action && (same || turned)) return i;
     if (earlier.action == Action::exchange || next.action == Action::exchange)
-      return std::nullopt;  // names mean other channels before it
+      return std::nullopt;  // before an exchange the names mean other channels
   }
   return std::nullopt;
 }

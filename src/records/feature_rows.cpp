@@ -18,7 +18,7 @@ namespace {
 constexpr double highest_frequency_Hz = 1e6;  ///< far above what any structure is tested at; its square is a harmless number
 constexpr double critical_damping_pct = 100.0;
 constexpr double largest_value = 1e15;  ///< [SI] of any row: beyond it products of a few values leave the range of doubles
-/// [-] Nothing is measured to twelve digits, and weights are squares of its inverse.
+/// [-] Nothing is measured to twelve digits. Weights are squares of the inverse.
 constexpr double least_relative_std = 1e-12;
 
 bool is_frequency(const FeatureRow& row) { return row.type == "frequency_Hz" || row.type == "stay_frequency_Hz"; }
@@ -78,7 +78,7 @@ std::string read_mode(const io::CsvTable& table, std::size_t at, const FeatureRo
   return mode;
 }
 
-/// A load test's row needs a channel that can show it.
+/// Refuses a row of a load test whose channel cannot measure it.
 void check_gauge(const io::CsvTable& table, std::size_t at, const FeatureRow& row,
                  const std::vector<matching::Channel>& channels) {
   const auto channel = std::ranges::find(channels, row.channel, &matching::Channel::name);
@@ -163,9 +163,9 @@ void refuse_shapes_of_zeros(const FeatureRows& read) {
 
 using Eigen::Index;
 
-constexpr double asymmetry = 1e-9;        ///< [-] of sqrt(c_ii c_jj): what single precision and rounding leave
-constexpr double least_share = 1e-12;     ///< [-] of a variance that the rows before it must leave open; less is rounding
-constexpr double least_variance = 1e-60;  ///< [SI²] the inverse of less is no number to compute with
+constexpr double asymmetry = 1e-9;        ///< [-] of sqrt(c_ii c_jj): rounding and single precision
+constexpr double least_share = 1e-12;     ///< [-] of a variance that the earlier rows must leave unexplained; less is rounding
+constexpr double least_variance = 1e-60;  ///< [SI²] the inverse of a smaller variance is too large to compute with
 constexpr double most_variance = 1e30;    ///< [SI²]
 
 struct Refusal {
@@ -175,14 +175,14 @@ struct Refusal {
   }
 };
 
-/// True if the rows before `n` leave at least `least_share` open of the variance of each of the first `n`.
+/// Whether each of the first `n` rows keeps at least `least_share` of its variance, given the rows before it.
 bool leading_part_is_definite(const Eigen::MatrixXd& correlation, Index n) {
   const Eigen::LLT<Eigen::MatrixXd> factor(correlation.topLeftCorner(n, n));
   if (factor.info() != Eigen::Success) return false;
   return (factor.matrixLLT().diagonal().array().square() > least_share).all();
 }
 
-/// The first row at which the elimination breaks down: the smallest leading part that is not definite ends with it.
+/// The first row at which the elimination breaks down, which is the last row of the smallest leading part that is not definite.
 Index first_dependent_row(const Eigen::MatrixXd& correlation) {
   Index definite = 0, broken = correlation.rows();
   while (broken - definite > 1) {

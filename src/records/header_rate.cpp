@@ -43,7 +43,7 @@ const Stated& stated_interval() {
 }  // namespace
 
 std::optional<double> rate_in_header_line(std::string_view text) {
-  constexpr std::ptrdiff_t longest = 300;  // letters of a statement; a regular expression takes memory for each
+  constexpr std::ptrdiff_t longest = 300;  // letters of a statement; a regular expression needs memory for each
   const std::string line = io::lower_case(text);
   for (const bool interval : {true, false}) {
     const Stated& stated = interval ? stated_interval() : stated_rate();
@@ -79,7 +79,7 @@ bool is_time_name(std::string_view text) {
 std::optional<long> samples_in_header_line(std::string_view text) {
   static const std::regex stated(
       R"(\bnpts\b\W{0,9}(\d{2,9})\b|\b(\d{2,9}) samples\b|number of (?:points|samples)\W{0,9}(\d{2,9})\b)");
-  const std::string line = io::lower_case(text.substr(0, 300));  // a regular expression takes memory for each letter
+  const std::string line = io::lower_case(text.substr(0, 300));  // a regular expression needs memory for each letter
   std::smatch found;
   if (!std::regex_search(line, found, stated)) return std::nullopt;
   return std::stol(found[1].matched ? found[1] : found[2].matched ? found[2] : found[3]);

@@ -44,7 +44,7 @@ void ChannelStatistics::add(double value) {
     at_highest_ = 0;
   }
   last_ = value;
-  // Welford's sums, which keep their digits on a large mean.
+  // Welford's sums keep their digits if the mean is large.
   ++there_;
   const double off = value - mean_;
   mean_ += off / static_cast<double>(there_);
@@ -79,7 +79,6 @@ Inspection inspect(const fs::path& file) {
       for (Index t = 0; t < block.rows(); ++t) channel.add(block(t, c));
     }
   };
-  // Whoever asks what a file holds is told of stray lines, not turned away.
   result.info = scan(file, look, {.skip_stray_lines = true});
   const Index lost = result.info.clock.missing();
   Index longest = 0;
@@ -100,12 +99,12 @@ namespace {
 // Bytes of a name or unit, and of a note, that are shown.
 constexpr std::size_t kLongestShown = 100, kLongestNote = 1000;
 
-constexpr double kNearGravity = 0.05;   ///< [g] of a mean: nearer than an uncalibrated sensor misses gravity by
-constexpr double kBesideGravity = 0.2;  ///< [g] RMS: ambient vibration is far below gravity
-constexpr double kBelowAnyUnit = 1e-7;  ///< RMS: below the noise of accelerometers in g, and further below in other units
-constexpr double kAmbientInG = 3e-3;    ///< RMS: bridges shake below that in g, and may in m/s²
+constexpr double kNearGravity = 0.05;   ///< [g] between a mean and gravity: offset of an uncalibrated sensor
+constexpr double kBesideGravity = 0.2;  ///< [g] RMS: with gravity in the mean, ambient vibration is far below this
+constexpr double kBelowAnyUnit = 1e-7;  ///< RMS: smaller values are below the noise of accelerometers in any unit
+constexpr double kAmbientInG = 3e-3;    ///< RMS: the vibration of bridges is below this in g; in m/s² it may be above
 
-/// Ambient vibration of a structure: what size of numbers speaks for which unit.
+/// Guesses the unit of ambient vibration from the size of the numbers.
 std::string guess(const ChannelSummary& channel) {
   const double mean = std::abs(channel.mean), rms = channel.rms;
   if (channel.dead) return "";
@@ -122,9 +121,9 @@ std::string deviation_of(const RecordInfo& info) {
   return info.clock.deviation_Hz > 1e-9 * info.rate_Hz ? fmt::format(" +- {:.2g} Hz", info.clock.deviation_Hz) : "";
 }
 
-/// How the time stamps lie about even ones, and where samples are missing or there twice.
+/// Deviation of the time stamps from even ones, with missing and repeated samples.
 std::string stamps_of(const RecordInfo& info) {
-  constexpr std::size_t most = 10;  // places that are told
+  constexpr std::size_t most = 10;  // gaps that are listed
   const RecordClock& clock = info.clock;
   std::string text = fmt::format("{:.4g} sample{} each, {:.2g} s about even ones (robust deviation){}", clock.shared_by,
                                  clock.shared_by == 1.0 ? "" : "s", clock.scatter_s,

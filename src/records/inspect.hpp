@@ -8,7 +8,7 @@
 
 namespace twindeck::records {
 
-/// What a channel's samples look like.
+/// Summary of a channel's samples.
 struct ChannelSummary {
   Eigen::Index samples = 0, missing = 0, longest_gap = 0;
   Eigen::Index clipped = 0;  ///< samples in runs of three or more at the largest or smallest value
@@ -20,13 +20,13 @@ struct ChannelSummary {
 class ChannelStatistics {
  public:
   void add(double value);
-  /// Samples up to `count` that never came are missing.
+  /// Summary of `count` samples; those that were not added count as missing.
   [[nodiscard]] ChannelSummary summary(Eigen::Index count) const;
 
  private:
   Eigen::Index there_ = 0, seen_ = 0, gap_ = 0, longest_gap_ = 0;
   double mean_ = 0.0, squares_ = 0.0, lowest_ = 0.0, highest_ = 0.0, last_ = 0.0;
-  Eigen::Index run_ = 0;                         ///< of equal values, the last one's
+  Eigen::Index run_ = 0;                         ///< length of the last run of equal values
   Eigen::Index at_lowest_ = 0, at_highest_ = 0;  ///< samples in runs of three or more there
   void close_run();
 };

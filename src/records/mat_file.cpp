@@ -25,7 +25,7 @@ namespace {
 
 constexpr const char* kCutOff = "the file was cut off or is damaged; copy it again";
 
-/// A number of the file. @param swapped  in the other order of bytes than this machine's
+/// A number of the file. @param swapped  its byte order is not that of this machine
 template <typename Number>
 Number number_at(const char* at, bool swapped) {
   std::array<char, sizeof(Number)> bytes{};
@@ -34,7 +34,7 @@ Number number_at(const char* at, bool swapped) {
   return std::bit_cast<Number>(bytes);
 }
 
-/// Bytes of a number of that code (MatArray::storage); 0 for a code that is none.
+/// Bytes of a number with the code MatArray::storage; 0 for an unknown code.
 std::uint64_t storage_bytes(int storage) {
   constexpr std::array<std::uint8_t, 14> bytes = {0, 1, 1, 2, 2, 4, 4, 4, 0, 8, 0, 0, 8, 8};
   return storage < 0 || storage >= std::ssize(bytes) ? 0 : bytes[static_cast<std::size_t>(storage)];
@@ -50,7 +50,7 @@ struct Level4Header {
 };
 constexpr std::uint64_t kLevel4Header = 20;
 
-/// The header if it can be one: the order of bytes fits to the digit that states it, the sizes can be.
+/// The header if it is plausible: byte order and sizes agree with the digits that state them.
 std::optional<Level4Header> level_4_header(std::string_view bytes) {
   if (bytes.size() < kLevel4Header) return {};
   constexpr std::uint32_t most = 0x7FFFFFFF, longest_name = 256;
@@ -107,12 +107,11 @@ MatFile level_4(const fs::path& file, std::uint64_t size) {
 
 constexpr std::uint64_t kLevel5Header = 128;  // [bytes] text, version, order of bytes
 
-// Codes of the format.
 constexpr std::uint32_t kMatrix = 14, kCompressed = 15;
 constexpr std::uint32_t kCell = 1, kStructure = 2, kText = 4, kSparse = 5, kFirstNumber = 6, kLastNumber = 15;
 constexpr std::uint32_t kComplexFlag = 0x0800;
 
-// What a sound file stays far below; more is damage. [bytes], [levels]
+// Limits far above those of a sound file; beyond them the file is damaged. [bytes], [levels]
 constexpr std::uint64_t kLongestName = 4096, kLongestFieldList = 1U << 20U, kLongestText = 4096, kMostDimensions = 32;
 constexpr int kDeepest = 8;
 
@@ -121,13 +120,12 @@ struct Tag {
   bool small = false;  ///< up to four bytes of data stand in the tag itself
 };
 
-/// Texts of a cell array; `all` ends when a cell is no text.
+/// Texts of a cell array; `all` is false if a cell is no text.
 struct CellTexts {
   std::vector<std::string> texts;
   bool all = true;
 };
 
-/// One variable of the file.
 class Variable {
  public:
   /// @param part  where its bytes lie: offset, length, compressed
@@ -174,7 +172,7 @@ class Variable {
       fail("has an element that is larger than what it stands in");
   }
 
-  /// The data of a small element. @param most  bytes that it may have
+  /// The data of a small element. @param most  largest allowed number of bytes
   std::string data(const Tag& tag, std::uint64_t end, std::uint64_t most) {
     require_within(tag, end);
     if (tag.bytes > most) fail("has a damaged header");
@@ -189,8 +187,8 @@ class Variable {
 
   void skip_to(std::uint64_t end) { source_.skip(end - std::min(end, source_.position()), what_); }
 
-  /// A matrix up to the place `end`. @param outer  name of the structure's field that it is, "" for a variable @param texts  of
-  /// the cell array that it stands in
+  /// A matrix up to the place `end`. @param outer  name if it is a field of a structure, "" for a variable @param texts  of the
+  /// cell array that contains it; null for none
   void matrix(std::uint64_t end, const std::string& outer, int depth, CellTexts* texts) {
     if (texts != nullptr) texts->all = texts->all && source_.position() < end;
     if (source_.position() >= end) return;  // an empty field or cell
@@ -204,7 +202,7 @@ class Variable {
     const std::string dimensions = data(tag(), end, 4 * kMostDimensions);
     if (dimensions.size() < 8 || dimensions.size() % 4 != 0) fail("has a damaged header");
     const std::string own = data(tag(), end, kLongestName), name = outer.empty() ? own : outer;
-    // Dimensions of length 1 are none.
+    // Dimensions of length 1 are dropped.
     std::vector<std::uint64_t> lengths;
     for (std::size_t k = 0; k < dimensions.size() / 4; ++k)
       if (dimensions.size() == 8 || word_of(dimensions, k) != 1) lengths.push_back(word_of(dimensions, k));
@@ -222,7 +220,7 @@ class Variable {
       texts->texts.push_back(text(end));
     } else if (kind >= kFirstNumber) {
       numbers(end, name, rows, columns, (word_of(flags, 0) & kComplexFlag) != 0);
-      if (depth == 0) return;  // the data are read later, by those who want them
+      if (depth == 0) return;  // the data are read later, if needed
     } else if (kind == kSparse) {
       mat_.notes.push_back(fmt::format("'{}' is sparse", name));
     } else if (kind == kStructure) {
@@ -231,7 +229,6 @@ class Variable {
     skip_to(end);
   }
 
-  /// The matrix that comes next within `end`.
   void inner(std::uint64_t end, const std::string& name, int depth, CellTexts* texts) {
     const Tag next = tag();
     if (next.type != kMatrix || next.small) fail("has a field or cell that is no matrix");

@@ -27,7 +27,7 @@ struct MatArray {
 struct MatFile {
   std::filesystem::path file;
   int version = 5;
-  bool swapped = false;  ///< the other order of bytes than this machine's
+  bool swapped = false;  ///< byte order other than that of this machine
   std::vector<MatArray> arrays;
   std::vector<std::vector<std::string>> texts;  ///< of each cell array that holds texts only
   std::vector<std::string> notes;               ///< arrays that are left out, and why: "'acc' is complex"

@@ -19,7 +19,6 @@ namespace {
 
 using Eigen::Index;
 
-/// What rows.csv says of one mode.
 struct MeasuredMode {
   std::size_t row = 0;
   double frequency = matching::kUnknown, frequency_std = matching::kUnknown, damping = matching::kUnknown,
@@ -74,7 +73,7 @@ matching::Measured assemble_measured(const io::CsvTable& table, const std::vecto
                  "give its shape at some channels");
     for (std::size_t c = 0; c < used.size(); ++c) {
       const auto at = mode.shape.find(used[c]->name);
-      // A channel that this mode lacks is missing, not zero: MACs leave it out.
+      // A channel without a value for this mode is unknown, not zero: MACs leave it out.
       modes.shapes(static_cast<Index>(c), i) =
           at == mode.shape.end() ? std::complex<double>(matching::kUnknown, 0.0) : at->second;
     }

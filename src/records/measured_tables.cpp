@@ -17,9 +17,9 @@ namespace twindeck::records {
 namespace {
 
 constexpr double absolute_zero_C = -273.15;
-/// Asphalt and dark steel in the sun reach 70 to 80 degrees. Kelvin, of a frost of -20 on, are far above.
+/// Asphalt and dark steel in the sun reach 70 to 80 degrees. A temperature in kelvin above -20 degrees C is larger than this.
 constexpr double hottest_C = 150.0;
-constexpr const char* reference_state = "reference";  ///< of a condition that names none
+constexpr const char* reference_state = "reference";  ///< state of a condition that names none
 
 double finite_number(const io::TomlEntry& entry, const Place& place) {
   const auto value = io::number_of(entry.value);
@@ -40,7 +40,6 @@ double number_from(const io::TomlEntry& entry, const Place& place, double least)
   return value;
 }
 
-/// Enters one key of a condition's table.
 void enter_key(const io::TomlEntry& entry, const Place& place, MeasuredCondition& condition) {
   static const std::vector<std::string> known = {
       "dampers", "amplitude_m", "amplitude_channel", "temperature_C", "wind_m_s", "direction_deg", "people", "load", "state"};

@@ -16,34 +16,34 @@ namespace twindeck::records {
 /// What a file says of a channel; empty or 0 where it says nothing.
 struct ChannelInfo {
   std::string name;
-  std::vector<std::string> other_names;  ///< that tell it from the others as well
+  std::vector<std::string> other_names;  ///< that also identify it uniquely
   std::string unit;                      ///< as written there
   std::string point;                     ///< node of a universal file
   std::string direction;                 ///< "+x" … of a universal file
   double rate_Hz = 0.0;                  ///< where it may differ between channels
   Eigen::Index samples = 0;
-  Eigen::Index position = 0;  ///< of its column or series in the file, from 1; the time column of a text file counts too
+  Eigen::Index position = 0;  ///< position of its column or series in the file, from 1, with time columns counted
 };
 
-/// [deviations] A rate further than that from the one that time stamps say is another.
+/// [standard deviations] Rates that differ from the rate of the time stamps by more are different rates.
 constexpr double kDeviationsOfARate = 3.0;
-/// [-] Two rates nearer than that are taken as one: the bias of a frequency stays below what records of hours resolve.
+/// [-] Rates that differ by less count as equal: the bias of a frequency is then below what hours of records resolve.
 constexpr double kSameRate = 1e-3;
 
 /// Everything but the samples.
 struct RecordInfo {
   std::string format;  ///< for people: "CSV, separated by ';', decimal comma, latin-1"
   std::vector<ChannelInfo> channels;
-  double rate_Hz = 0.0;                              ///< 0 where it is not known or not one
+  double rate_Hz = 0.0;                              ///< 0 if it is unknown or differs between channels
   std::string rate_source;                           ///< where the rate comes from
-  RecordClock clock;                                 ///< what the time stamps say, where the file has any
-  bool clock_unit_known = true;                      ///< false where the stamps' unit is the likely one
-  std::vector<std::pair<Eigen::Index, long>> lines;  ///< of text: a row and its line, wherever the two begin to go together
-  std::vector<std::string> notes;                    ///< what was odd and how it was read; what is missing
+  RecordClock clock;                                 ///< clock from the time stamps, if the file has any
+  bool clock_unit_known = true;                      ///< false if the unit of the stamps was guessed
+  std::vector<std::pair<Eigen::Index, long>> lines;  ///< text files: row and line, where their difference changes
+  std::vector<std::string> notes;                    ///< oddities, how they were read, and missing data
   bool names_channels = false;  ///< the file names its channels itself; otherwise they are called "column 3"
-  bool has_header = true;       ///< the format has places for names, so that their absence is worth a word
+  bool has_header = true;       ///< the format has a place for names, so that missing names are reported
   std::vector<std::string>
-      unaligned_header;     ///< cells of a text file's header line that has another number of them than the rows
+      unaligned_header;     ///< cells of a header line of a text file whose number differs from that of the rows
   long unaligned_line = 0;  ///< that line
 };
 
@@ -56,16 +56,16 @@ struct ReadOptions {
 /// Called with parts of the record in the order of the file: first sample, first channel, values (samples × channels).
 using Visitor = std::function<void(Eigen::Index first_sample, Eigen::Index first_channel, const Eigen::MatrixXd& block)>;
 
-/// Walks through a file in bounded memory (some megabytes, whatever its size). Sizes that a header claims are held against the
-/// file's length, or where data are compressed against the most that compression can do, before they are used. Missing values
-/// (empty cells) are NaN; rows are given as they stand in the file, gaps of the clock are told in RecordInfo::clock. A column
+/// Walks through a file in bounded memory (some megabytes, whatever its size). Sizes that a header states are checked before
+/// use, against the length of the file and, for compressed data, against the largest possible compression. Missing values
+/// (empty cells) are NaN; rows are given as the file has them, and gaps of the clock are listed in RecordInfo::clock. A column
 /// of time is no channel. Memory beside that: sixteen bytes a time stamp. Formats: CSV and its kin, NPY, MAT 4, 5 and 7.3,
 /// HDF5, universal files with sets 58 and 58b.
 /// @throws InputError  with file and line: an unknown format, no numbers, a file that breaks off, a line below the header that
-/// is no row of numbers (see ReadOptions), a pipe or device
+///         is no row of numbers (see ReadOptions), a pipe or device
 RecordInfo scan(const std::filesystem::path& file, const Visitor& visit, const ReadOptions& options = {});
 
-/// A whole record, on its clock: gaps are rows of NaN, rows that are there twice are there once (on_the_clock).
+/// A whole record, on its clock: gaps are rows of NaN, repeated rows appear once (on_the_clock).
 struct Record {
   RecordInfo info;
   Eigen::MatrixXd samples;  ///< (n_samples × n_channels); NaN beyond the end of shorter channels
@@ -73,7 +73,7 @@ struct Record {
 [[nodiscard]] Record read(const std::filesystem::path& file, const ReadOptions& options = {});
 
 /// Some columns of a file that has been scanned. Memory: samples × chosen columns, however wide the file; see Samples.
-/// @param columns  positions in RecordInfo::channels, ascending or not @param n_samples  rows of the file that `scan` came to
+/// @param columns  positions in RecordInfo::channels, ascending or not @param n_samples  number of rows that `scan` found
 /// @return (n_samples with gaps × n_chosen) in the order asked for; NaN beyond the end of shorter channels
 [[nodiscard]] Samples read(const std::filesystem::path& file, const std::vector<Eigen::Index>& columns, Eigen::Index n_samples,
                            const ReadOptions& options = {});

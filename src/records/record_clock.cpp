@@ -12,15 +12,15 @@ using Eigen::Index;
 namespace {
 
 constexpr double kNormal = 1.4826;      ///< standard deviation of a normal distribution over its median absolute deviation
-constexpr double kAlone = 0.6;          ///< [samples] a gap of stamps of their own: over what rounding to a digit can do
-constexpr double kShared = 1.5;         ///< [samples] a gap of shared stamps: over what a row's place in its stamp can do
-constexpr double kNoise = 20.0;         ///< robust deviations of the envelope that a gap exceeds: its minima are exponential
-constexpr double kRoundTo = 0.3;        ///< [deviations] that a rate is moved to be a round number
-constexpr double kRowsOfALag = 50.0;    ///< rows between two shared stamps whose slope is trusted: the place leaves 2 %
-constexpr double kEvenSlopes = 0.2;     ///< [-] quartile range of slopes over their median: then most are without a gap
-constexpr std::size_t kWidest = 64;     ///< stamps that the envelope looks ahead and back at most
-constexpr std::size_t kStretch = 32;    ///< stamps in which half may not have a gap: that is another rate
-constexpr double kSharesOfADay = 0.02;  ///< of a day, at its end and begin, between which a step back is midnight
+constexpr double kAlone = 0.6;          ///< [samples] least gap between unshared stamps; rounding is less
+constexpr double kShared = 1.5;         ///< [samples] least gap between shared stamps, where a row's position is uncertain
+constexpr double kNoise = 20.0;         ///< robust deviations of the envelope that a gap must exceed
+constexpr double kRoundTo = 0.3;        ///< [deviations] largest change of a rate that makes it a round number
+constexpr double kRowsOfALag = 50.0;    ///< least rows between two shared stamps for a slope, certain to 2 %
+constexpr double kEvenSlopes = 0.2;     ///< [-] quartile range of slopes over their median; below it most slopes contain no gap
+constexpr std::size_t kWidest = 64;     ///< largest number of stamps that the envelope looks ahead and back
+constexpr std::size_t kStretch = 32;    ///< stamps of a stretch; gaps in half of them mean another rate
+constexpr double kSharesOfADay = 0.02;  ///< of a day: a step back from the last to the first such part of a day is midnight
 
 double quantile(std::vector<double> values, double share) {
   if (values.empty()) return 0.0;
@@ -35,19 +35,20 @@ double robust_deviation(std::vector<double> values) {
   return kNormal * quantile(std::move(values), 0.5);
 }
 
-/// The stamps of one file while its clock is sought.
+/// Stamps of one file, during the search for its clock.
 struct Search {
   std::vector<double> row, time;  ///< of each stamp: first row, and time after the first stamp's
   bool shared = false;
   double step = 0.0;           ///< of a sample
   std::vector<Index> missing;  ///< m of each stamp
   [[nodiscard]] std::size_t size() const { return row.size(); }
-  /// The first stamp that counts: the first of shared ones may have begun before the record.
+  /// The first stamp in use. If rows share stamps, the first stamp is skipped: it may have begun before the record.
   [[nodiscard]] std::size_t begin() const { return shared && size() > 2 ? 1 : 0; }
   [[nodiscard]] double place(std::size_t k) const { return row[k] + static_cast<double>(missing[k]); }
 };
 
-/// A first step: slopes between stamps so far apart that most agree; the mean of those near the median keeps the digits.
+/// First estimate of the step: slopes between stamps so far apart that most of them agree. The mean of the slopes near the
+/// median keeps the digits.
 double first_step(const Search& s) {
   const std::size_t n = s.size(), begin = s.begin();
   double best = 0.0, least = std::numeric_limits<double>::infinity();
@@ -85,7 +86,7 @@ std::vector<double> lowest_ahead(const std::vector<double>& residual, std::size_
   return lowest;
 }
 
-/// How far ahead the envelope looks, and how far it must rise for a gap.
+/// Number of stamps that the envelope looks ahead, and the least rise that is a gap.
 struct Envelope {
   std::size_t width = 4;
   double least = 0.0, noise = 0.0;
@@ -101,7 +102,7 @@ Envelope envelope_of(const std::vector<double>& residual, double step, bool shar
       const auto begin = residual.begin() + static_cast<long>(k);
       const double low = *std::min_element(begin, begin + static_cast<long>(envelope.width));
       if (k > 0) change.push_back(low - last);
-      if (k > 0) folded.push_back(std::remainder(low - last, step));  // gaps fold away, however many there are
+      if (k > 0) folded.push_back(std::remainder(low - last, step));  // the remainder hides gaps, however many there are
       last = low;
     }
     envelope.noise = robust_deviation(std::move(folded)) / std::sqrt(2.0);
@@ -111,15 +112,15 @@ Envelope envelope_of(const std::vector<double>& residual, double step, bool shar
   }
 }
 
-/// The envelope rises nowhere more within its width: late stamps just before a gap lift it early.
+/// Whether the envelope rises most at k, within its width. Late stamps before a gap would raise it too early.
 bool is_steepest(const std::vector<double>& ahead, std::size_t k, std::size_t width) {
-  if (width == Envelope().width) return true;  // no stamp is late: each gap stands where it shows
+  if (width == Envelope().width) return true;  // no stamp is late: gaps are where they appear
   for (std::size_t j = k + 1; j < std::min(k + width, ahead.size()); ++j)
     if (ahead[j] - ahead[j - 1] > ahead[k] - ahead[k - 1]) return false;
   return true;
 }
 
-/// Where samples are missing or there twice, by the step at hand. @return whether m has changed
+/// Finds missing and repeated samples with the current step. @return whether m has changed
 bool find_gaps(Search& s, std::vector<ClockGap>& gaps, Index& changes_rate) {
   const std::size_t n = s.size();
   std::vector<double> residual(n), level(n);
@@ -136,7 +137,7 @@ bool find_gaps(Search& s, std::vector<ClockGap>& gaps, Index& changes_rate) {
   for (std::size_t k = begin + 1; k < n; ++k) {
     const std::size_t back = std::max(begin, k < envelope.width ? 0 : k - envelope.width);
     const double behind = *std::min_element(level.begin() + static_cast<long>(back), level.begin() + static_cast<long>(k));
-    // The smallest of fewer residuals is less sure, at either end of the record.
+    // At either end of the record the minimum is over fewer residuals and is less certain.
     const auto least = [&](std::size_t seen) {
       const double share = static_cast<double>(envelope.width) / static_cast<double>(std::min(seen, envelope.width));
       return std::max(envelope.least, kNoise * envelope.noise * share);
@@ -146,9 +147,9 @@ bool find_gaps(Search& s, std::vector<ClockGap>& gaps, Index& changes_rate) {
     if (up > least(n - k) && is_steepest(ahead, k, envelope.width)) samples = std::round(up / s.step);
     if (down > least(k - begin)) samples = std::round(std::min(up, 0.0) / s.step);
     if (samples != 0.0) {
-      constexpr double most = 1e15;  // samples: their sums stay whole numbers
+      constexpr double most = 1e15;  // samples, so that sums stay whole numbers
       const auto count = static_cast<Index>(std::clamp(samples, -most, most));
-      const bool within = count < 0 && s.time[k] > s.time[k - 1];  // the row that is there twice shares a stamp before this one
+      const bool within = count < 0 && s.time[k] > s.time[k - 1];  // the repeated row shares a stamp before this one
       gaps.push_back({static_cast<Index>(s.row[k]) + (within ? count : 0), count});
       shift += static_cast<double>(count) * s.step;
       missing[k] = count;
@@ -168,7 +169,8 @@ struct Line {
   double slope = 0.0, deviation = 0.0, scatter = 0.0;
 };
 
-/// Standard deviation of the slope: by white residuals, and by their means in ten blocks, which see slow ones too.
+/// Standard deviation of the slope: the larger of the value for white residuals and of that for means in ten blocks, which
+/// shows slow residuals too.
 double slope_deviation(const Search& s, const std::vector<double>& weight, const std::vector<double>& residual, double middle) {
   constexpr std::size_t blocks = 10;
   std::array<double, blocks> w{}, x{}, r{};
@@ -233,8 +235,8 @@ Line robust_line(const Search& s) {
   return line;
 }
 
-/// Whether a part of the record runs at another rate than its begin: its own slope is another by two per cent, two samples and
-/// more than its own scatter.
+/// Whether a part of the record runs at another rate than the first part: its slope differs by two per cent, by two samples,
+/// and by more than its scatter.
 bool has_other_rate(const Search& s) {
   constexpr std::size_t parts = 8, fewest = 8;  // stamps of a part
   constexpr double least = 0.02, samples = 2.0;
@@ -255,7 +257,7 @@ bool has_other_rate(const Search& s) {
   return false;
 }
 
-/// The row from which another rate holds: the two lines of time over rows that leave the least squares meet there.
+/// The row from which another rate holds: there the two lines with the least squares meet.
 Index other_rate_from(const Search& s) {
   struct Sums {
     double n = 0.0, x = 0.0, t = 0.0, xx = 0.0, xt = 0.0, tt = 0.0;
@@ -284,7 +286,7 @@ Index other_rate_from(const Search& s) {
   return static_cast<Index>(s.row[at]);
 }
 
-/// The number of fewest digits within one deviation: loggers run at round rates, and the stamps' digits hide that.
+/// The number with the fewest digits within `kRoundTo` deviations. Loggers run at round rates, which the digits of stamps hide.
 double round_rate(double rate, double deviation) {
   const double tolerance = std::max(kRoundTo * deviation, 1e-7 * rate);
   for (int digits = 1; digits < 12; ++digits) {
@@ -335,12 +337,12 @@ void StampedRows::add(double stamp) {
 }
 
 bool StampedRows::mostly_rises() const {
-  constexpr Index one_in = 50;  // a fall: a clock that was set; noise falls every other time
+  constexpr Index one_in = 50;  // rows per fall: a clock is seldom set, but noise falls every other time
   return row_ > without_ && without_ <= row_ / 2 && one_in * falls_ <= row_;
 }
 
 bool StampedRows::runs_like_time(bool evenly) const {
-  constexpr double even = 0.05;  // [-] scatter about the line beside its length
+  constexpr double even = 0.05;  // [-] scatter about the line over the length of the line
   if (falls_ > 0 || without_ > 0 || counts_ || stamps_.size() < 3) return false;
   const RecordClock found = clock(1.0);
   if (found.rate_Hz <= 0.0 || found.changes_rate >= 0) return false;
@@ -349,9 +351,9 @@ bool StampedRows::runs_like_time(bool evenly) const {
 }
 
 double StampedRows::likely_unit_s(double step, double first) {
-  constexpr double slowest = 1.0, fastest = 1e5;       // [Hz] of records of vibration
+  constexpr double slowest = 1.0, fastest = 1e5;       // [Hz] rates of vibration records
   constexpr double tick = 1e-7;                        // [s]
-  for (const double year_1990 : {6.278e17, 1.228e17})  // [ticks] since 0001 and 1601; a century more is the same digits
+  for (const double year_1990 : {6.278e17, 1.228e17})  // [ticks] of 1990 since the years 1 and 1601; a century is 3.2e16 ticks
     if (first > year_1990 && first < year_1990 + 3.2e16) return tick;
   for (const double unit : {1.0, 1e-3, 1e-6, 1e-9, 86400.0}) {
     if (const double rate = 1.0 / (step * unit); rate >= slowest * (1.0 - 1e-3) && rate <= fastest) return unit;
@@ -368,14 +370,14 @@ RecordClock StampedRows::clock(double unit_s) const {
   found.reversed = n > 2 && falls_ > (static_cast<Index>(n) - 1) * 9 / 10;
   if (found.reversed) return found;
   Search s;
-  constexpr double few = 0.005;  // of the rows share a stamp by being there twice, not by the stamps' coarseness
+  constexpr double few = 0.005;  // of the rows: as many repeated rows share stamps although the stamps are fine
   const double sharing = static_cast<double>(row_ - without_) - static_cast<double>(n);
   s.shared = sharing > 2.0 && sharing > few * static_cast<double>(row_);
   for (const Stamp& stamp : stamps_) {
     s.row.push_back(static_cast<double>(stamp.row));
     s.time.push_back(stamp.time - stamps_.front().time);
   }
-  if (s.shared && n == 2) return found;  // nobody knows for how long the first one was there before the record
+  if (s.shared && n == 2) return found;  // it is unknown how long before the record the first stamp began
   s.step = first_step(s);
   if (s.step <= 0.0) {
     for (std::size_t k = 1; k < n && found.steps_back < 0; ++k)

@@ -22,8 +22,8 @@ struct RecordedUnit {
 /// Factor from a unit of acceleration, velocity, displacement or force to SI; 0 if the unit is unknown.
 [[nodiscard]] double si_factor(const std::string& unit);
 
-/// A sensor's own calibration may move its gain by this factor either way. Two units of one quantity lie a factor of 9.8 apart
-/// or more; this is less than the root of that, so that no gain fits both.
+/// [-] Largest factor between the gain of a sensor and its unit, either way, by calibration. Units of one quantity differ by a
+/// factor of 9.8 or more. Its root is larger than this, so that no gain fits two units.
 inline constexpr double kLargestCalibration = 3.1;
 
 }  // namespace twindeck::records

@@ -73,7 +73,7 @@ std::string text_attribute(hid_t object, const char* name) {
   return text.c_str();
 }
 
-/// Whether all of a dataset's values stand in this file: what was never written would be read as zeros.
+/// Whether this file holds all values of a dataset; missing values would be read as zeros.
 /// @return the problem, "" for none
 std::string what_is_missing(hid_t dataset, std::uint64_t values, std::uint64_t item) {
   const Handle settings(H5Dget_create_plist(dataset), H5Pclose);
@@ -83,7 +83,7 @@ std::string what_is_missing(hid_t dataset, std::uint64_t values, std::uint64_t i
   hsize_t whole_file = 0;
   const Handle file(H5Iget_file_id(dataset), H5Fclose);
   if (stored == 0) return "was never written";
-  // The library takes as much memory for a chunk as the file says that the chunk takes.
+  // The library allocates the size that the file states for a chunk.
   if (H5Fget_filesize(file.get(), &whole_file) < 0 || stored > whole_file) return "takes more bytes than the file has";
   if (layout != H5D_CHUNKED) return values > stored / item ? "has fewer values than it says" : "";
   hsize_t chunk[2] = {1, 1}, size[2] = {1, 1}, found = 0;
@@ -120,7 +120,7 @@ bool shape_of(hid_t dataset, bool matlab, NamedArray& array, std::string& proble
   return true;
 }
 
-/// What a dataset is that is no array of numbers of one or two dimensions; "" for texts and the like.
+/// Description of a dataset that is no array of numbers of one or two dimensions; "" for texts and the like.
 std::string what_else(hid_t dataset) {
   const Handle type(H5Dget_type(dataset), H5Tclose), space(H5Dget_space(dataset), H5Sclose);
   const int rank = H5Sget_simple_extent_ndims(space.get());
@@ -137,8 +137,8 @@ std::string what_else(hid_t dataset) {
   return (kind == H5T_FLOAT || kind == H5T_INTEGER) && rank > 2 ? fmt::format("has {} dimensions", rank) : "";
 }
 
-/// Sets by what `access` a dataset is opened with room for the chunks that one block of samples lies in, so that each chunk is
-/// decompressed once. The dataset is closed again: one that stays open keeps the room it has.
+/// Sets the properties `access` for opening a dataset: a cache for all chunks of one block of samples, so that each chunk is
+/// decompressed once. A dataset must be opened anew to use it.
 /// @param along_rows  samples follow each other along a row
 void make_room(hid_t file, const NamedArray& array, bool along_rows, hid_t access) {
   const Handle dataset(H5Dopen(file, array.name.c_str(), H5P_DEFAULT), H5Dclose);
@@ -146,15 +146,14 @@ void make_room(hid_t file, const NamedArray& array, bool along_rows, hid_t acces
   hsize_t chunk[2] = {1, 1};
   if (H5Pget_layout(settings.get()) != H5D_CHUNKED || H5Pget_chunk(settings.get(), 2, chunk) <= 0) return;
   constexpr hsize_t least = hsize_t{1} << 20U, most = hsize_t{1} << 30U;  // bytes
-  constexpr hsize_t slots_of_a_chunk = 100, fewest_slots = 521;           // as the library advises, and takes by itself
-  const hsize_t bytes = chunk[0] * chunk[1] * H5Tget_size(type.get());    // decompressing one takes as much memory anyway
+  constexpr hsize_t slots_of_a_chunk = 100, fewest_slots = 521;           // advice and default of the library
+  const hsize_t bytes = chunk[0] * chunk[1] * H5Tget_size(type.get());    // decompressing one chunk needs as much memory anyway
   const auto across =
       1 + (along_rows ? static_cast<hsize_t>(array.rows) / chunk[0] : static_cast<hsize_t>(array.columns) / chunk[1]);
   H5Pset_chunk_cache(access, std::max(fewest_slots, slots_of_a_chunk * std::min(across, least) + 1),
                      std::max({least, bytes, std::min(most, bytes * across)}), 1.0);
 }
 
-/// Values of a part, in C order.
 Eigen::MatrixXd part(hid_t dataset, Index row, Index column, Index rows, Index columns, const std::string& file) {
   const Handle space(H5Dget_space(dataset), H5Sclose);
   const int rank = H5Sget_simple_extent_ndims(space.get());
@@ -171,7 +170,7 @@ Eigen::MatrixXd part(hid_t dataset, Index row, Index column, Index rows, Index c
 struct Found {
   bool matlab = false;
   std::vector<NamedArray> arrays;
-  std::vector<std::string> problems;  ///< of each array: why its values cannot be had, "" for none
+  std::vector<std::string> problems;  ///< why the values of each array cannot be read, "" if they can
   std::vector<std::string> cells;     ///< MATLAB's cell arrays
   std::vector<std::string> others;    ///< what is no array of numbers of two dimensions, and why
   std::vector<std::pair<std::string, double>> attributes;
@@ -191,7 +190,7 @@ herr_t read_attribute(hid_t object, const char* name, const H5A_info_t*, void* d
 
 herr_t visit_object(hid_t file, const char* name, const H5O_info_t* info, void* data) {
   auto& found = *static_cast<Found*>(data);
-  if (found.matlab && name[0] == '#') return 0;  // what cells and objects refer to
+  if (found.matlab && name[0] == '#') return 0;  // objects that cells refer to
   const Handle object(H5Oopen(file, name, H5P_DEFAULT), H5Oclose);
   if (!object) return 0;
   hsize_t index = 0;
@@ -238,13 +237,12 @@ std::vector<std::string> texts_of(hid_t file, const std::string& name) {
   return texts;
 }
 
-/// Name as a person of that program calls it: "run.acc" of the structure `run` in MATLAB.
+/// Name in the program that wrote the file: "run.acc" of the structure `run` in MATLAB.
 std::string called(std::string name, bool matlab) {
   if (matlab) std::ranges::replace(name, '/', '.');
   return name;
 }
 
-/// Format and channels.
 RecordInfo info_of(const Found& found, const ArrayChoice& choice) {
   RecordInfo info;
   const NamedArray& first = found.arrays[choice.data.front()];
@@ -264,11 +262,10 @@ RecordInfo info_of(const Found& found, const ArrayChoice& choice) {
 
 Handle opened(const fs::path& file) { return {H5Fopen(file.string().c_str(), H5F_ACC_RDONLY, H5P_DEFAULT), H5Fclose}; }
 
-/// All arrays, cells and attributes.
 void look_through(hid_t file, Found& found) { H5Ovisit(file, H5_INDEX_NAME, H5_ITER_NATIVE, visit_object, &found); }
 
-/// What the child does in place of the caller: no handlers of its own (a step's would clean up its results), no core file, an
-/// end after a minute.
+/// Runs the work in the child process, then ends it: no handlers of its own (a step's would clean up its results), no core
+/// file, an end after a minute.
 [[noreturn]] void do_and_end(const std::function<void()>& work) {
   constexpr unsigned most_s = 60;  // to look through a file takes milliseconds
   for (const int number : {SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGABRT, SIGINT, SIGTERM, SIGHUP, SIGALRM})

@@ -29,7 +29,7 @@ void visit_matrix(const MatFile& mat, const MatArray& array, bool transposed, co
     });
     return;
   }
-  // A part of the values may end one channel and begin the next.
+  // One part of the values may hold the end of a channel and the beginning of the next.
   visit_values(mat, array, kValues, [&](Index first, const Eigen::VectorXd& values) {
     for (Index k = 0; k < values.size();) {
       const Index row = (first + k) % rows, channel = (first + k) / rows, n = std::min(rows - row, values.size() - k);

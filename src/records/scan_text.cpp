@@ -21,9 +21,8 @@ using Eigen::Index;
 
 namespace {
 
-constexpr Index kPart = 524288;  // values that are handed on at once
+constexpr Index kPart = 524288;  // values that are passed on at once
 
-/// Collects rows into parts.
 class RowParts {
  public:
   RowParts(Index columns, const Visitor& visit) : visit_(visit), block_(std::clamp<Index>(kPart / columns, 1, 4096), columns) {}
@@ -56,7 +55,6 @@ std::string describe(const TextLayout& layout) {
                      layout.first_data_line - 1, layout.first_data_line == 2 ? "" : "s");
 }
 
-/// Time of each row.
 class RowTime {
  public:
   explicit RowTime(const TextLayout& layout) : layout_(layout) {}
@@ -111,17 +109,16 @@ std::string time_name(const TextLayout& layout) {
   return layout.names.empty() || layout.names[at].empty() ? "" : " '" + layout.names[at] + "'";
 }
 
-/// Reads the lines below the header one after another.
 class Rows {
  public:
   Rows(const TextLayout& layout, std::vector<std::size_t> columns)
       : layout_(layout), columns_(std::move(columns)), clock_(layout), row_(columns_.size()) {}
 
-  /// Whether the stray line has a row's cells, one of them with text.
+  /// Whether the stray line has the number of cells of a row, with text in one of them.
   [[nodiscard]] bool is_one_cell() const { return one_cell_; }
   enum class Kind { blank, row, stray, cut };
-  /// What a line is; of a row the values and the time, of a stray line why it is no row.
-  /// @param without_end  the file ends in this line: it may be cut inside its last number
+  /// Kind of a line. For a row, keeps the values and the time; for a stray line, the reason.
+  /// @param without_end  the file ends in this line, so that its last number may be cut
   Kind take(std::string_view line, bool without_end) {
     one_cell_ = false;
     auto cells = cells_of(line, layout_.separator);
@@ -175,10 +172,10 @@ class Rows {
   std::string problem_;
   bool one_cell_ = false;
   static constexpr std::size_t kNone = std::numeric_limits<std::size_t>::max();
-  std::size_t fewest_decimals_ = kNone;  ///< letters from the decimal sign on in a row's last cell
+  std::size_t fewest_decimals_ = kNone;  ///< least number of characters from the decimal sign on in the last cell of a row
 };
 
-/// A line without its digits: "Channel 1" and "Channel 2" have one form.
+/// A line without its digits, so that "Channel 1" and "Channel 2" are equal.
 std::string form_of(std::string_view line) {
   std::string out(trimmed(line));
   std::erase_if(out, [](char c) { return std::isdigit(static_cast<unsigned char>(c)) != 0; });
@@ -193,8 +190,8 @@ std::string form_of(std::string_view line) {
                    "write each block into a file of its own, or side by side as columns");
 }
 
-/// Refuses one series that is written on along the rows: its header states about as many samples as the rows have numbers. A
-/// table with a clock of its own, or with a line of names, has channels.
+/// Refuses a single series that is written along the rows: the header states about as many samples as the rows hold numbers. A
+/// table with time or with a line of names has channels instead.
 void refuse_wrapped_series(const fs::path& file, const TextLayout& layout, Index rows) {
   const auto columns = static_cast<Index>(layout.columns);
   const Index stated = layout.header_samples.value_or(0), full = stated / columns;
@@ -235,7 +232,7 @@ RecordInfo scan_text(const fs::path& file, const Visitor& visit, const ReadOptio
       continue;
     }
     if (kind == Rows::Kind::stray) {
-      refuse_wrapped_series(file, layout, parts.rows());  // its last row may be a short one
+      refuse_wrapped_series(file, layout, parts.rows());  // its last row may be shorter
       if (layout.time_column < 0 && header.contains(form_of(line))) refuse_next_block(file, in.number(), line);
       if (!options.skip_stray_lines)
         throw InputError(

@@ -37,8 +37,8 @@ void skip_set(UniversalLines& in, const std::string& set) {
   in.fail(fmt::format("breaks off in set {}, expected -1 at its end", set), kCopyAgain);
 }
 
-/// The -1 after the last value. Some writers leave out the very last one; then nothing tells whether sets are missing, and a
-/// note says so.
+/// Reads the -1 after the last value. Some writers leave out the last one of the file. Then it is unknown whether sets are
+/// missing, and a note says so.
 void expect_end(UniversalLines& in, RecordInfo& info, const std::string& set) {
   const bool whole = !in.is_last_without_end();
   std::string line;
@@ -57,8 +57,8 @@ struct Series {
   Index values = 0;
   bool even = true, binary = false, swapped = false;
   double step = 0.0;
-  double unit_s = 0.0;  ///< of the abscissa, 0 where it has none that is known
-  StampedRows stamps;   ///< where it is uneven
+  double unit_s = 0.0;  ///< [s] unit of the abscissa, 0 if unknown
+  StampedRows stamps;   ///< of an uneven abscissa
   std::size_t bytes = 0;
   ChannelInfo channel;
   [[nodiscard]] bool is_complex() const { return data_type == 5 || data_type == 6; }
@@ -138,7 +138,6 @@ double binary_value(const char* at, bool is_double, bool swapped) {
   return static_cast<double>(std::bit_cast<std::array<float, 2>>(bytes)[0]);
 }
 
-/// Hands values on in parts.
 class Parts {
  public:
   Parts(const Visitor& visit, Index channel) : visit_(visit), channel_(channel), block_(kValuesOfAPart, 1) {}
@@ -158,7 +157,7 @@ class Parts {
   Eigen::MatrixXd block_;
 };
 
-/// Values a sample takes up in the file: abscissa where uneven, real and imaginary part.
+/// Numbers per sample in the file: an uneven abscissa, real and imaginary part.
 Index width(const Series& series) { return (series.even ? 0 : 1) + (series.is_complex() ? 2 : 1); }
 
 /// Numbers of a line of values; NaN for a number that the writer could not write (NaN, Inf, stars).
@@ -197,7 +196,7 @@ void read_text_values(UniversalLines& in, Series& series, const std::string& wha
 
 void read_binary_values(UniversalLines& in, Series& series, const std::string& what, Parts& parts, RecordInfo& info) {
   const std::size_t size = series.is_double() ? 8 : 4;
-  // An uneven abscissa is single in set 58, whatever the ordinate is; some writers give it eight bytes and say so.
+  // In set 58 an uneven abscissa has four bytes. Some writers use eight, as the byte count shows.
   const std::size_t ordinate = size * (series.is_complex() ? 2 : 1);
   const bool wide = !series.even && series.bytes == (8 + ordinate) * static_cast<std::size_t>(series.values);
   const std::size_t abscissa = series.even ? 0
@@ -206,7 +205,7 @@ void read_binary_values(UniversalLines& in, Series& series, const std::string& w
                     sample = abscissa + ordinate, expected = sample * static_cast<std::size_t>(series.values);
   if (series.bytes != 0 && series.bytes != expected)
     info.notes.push_back(fmt::format("{} says {} bytes, {} values take {}", what, series.bytes, series.values, expected));
-  // A newline too many before the data: then the set's end stands one byte later than it should.
+  // A newline too many before the data moves the end of the set by one byte.
   const auto ends_at = [&](std::size_t offset) {
     const std::string tail = in.peek(offset, 9);
     const std::size_t first = tail.find_first_not_of("\r\n");
@@ -242,7 +241,7 @@ void read_series(UniversalLines& in, const std::string& set_line, const Visitor&
     read_text_values(in, series, what, parts);
   parts.flush();
   if (!series.even && series.is_time()) {
-    RecordInfo own;  // all channels share the first one's clock; another's rate is held against it later
+    RecordInfo own;  // the clock of the first channel is that of all; other rates are compared with it later
     take_clock(series.stamps, series.unit_s, "abscissa", info.channels.empty() ? info : own);
     series.channel.rate_Hz = info.channels.empty() ? info.rate_Hz : own.rate_Hz;
   }
@@ -255,7 +254,7 @@ void read_series(UniversalLines& in, const std::string& set_line, const Visitor&
 
 long set_number(const std::string& line) { return integer_or(field(line, 0, 6), integer_or(field(line, 0, 80), 0)); }
 
-/// A line with the number of a set that is read, and nothing else but the fields of 58b.
+/// A line with the number of a known set and no other text than the fields of 58b.
 bool begins_known_set(const std::string& line) {
   constexpr std::array<long, 8> known = {15, 55, 58, 82, 151, 164, 2411, 2412};
   if (!contains(known, set_number(line))) return false;
@@ -278,10 +277,10 @@ void read_set(UniversalLines& in, const std::string& set_line, const Visitor& vi
   }
 }
 
-/// Calls the channels of a universal file by the first of their title lines or, where it is empty or one for all, by the next
-/// thing that tells them apart: the point of record 6 with its direction, its name, another title line. The others stay names
-/// too, if they are unique.
-/// @param channels  other_names: the five title lines, then what record 6 gives
+/// Names the channels of a universal file by their first title line. If that is empty or equal for all, the name is the first
+/// of these that differs: point and direction of record 6, its name, another title line. The others become further names if
+/// they are unique.
+/// @param channels  other_names: the five title lines, then the names of record 6
 void name_by_difference(std::vector<ChannelInfo>& channels) {
   const auto tells_apart = [&](std::size_t k) {
     std::set<std::string> seen;
@@ -293,7 +292,7 @@ void name_by_difference(std::vector<ChannelInfo>& channels) {
   std::size_t most = 0;
   for (const ChannelInfo& channel : channels) most = std::max(most, channel.other_names.size());
   std::vector<std::size_t> telling;
-  for (const std::size_t k : {0, 5, 6, 7, 4, 3, 2, 1})  // of other_names: five title lines, then record 6
+  for (const std::size_t k : {0, 5, 6, 7, 4, 3, 2, 1})  // positions in other_names: five title lines, then record 6
     if (k < most && tells_apart(k)) telling.push_back(k);
   for (ChannelInfo& channel : channels) {
     const std::string title = channel.other_names.front();
@@ -317,7 +316,7 @@ UniversalData scan_universal_sets(const fs::path& file, const Visitor& visit, Re
       continue;
     }
     if (!is_delimiter(line)) {
-      // Some writers let one -1 end a set and begin the next. Anything else would be skipped with the set that it begins.
+      // Some writers end a set and begin the next with one -1. Any other text is refused, because its set would be skipped.
       if (!begins_known_set(line))
         in.fail(fmt::format("holds '{}' between two sets, expected -1", field(line, 0, 40)),
                 "remove the line, or write the file again");
@@ -330,7 +329,7 @@ UniversalData scan_universal_sets(const fs::path& file, const Visitor& visit, Re
       if (!in.next(set_line)) in.fail("breaks off after the -1 that begins a set", kCopyAgain);
     } while (is_blank(set_line));
     if (is_delimiter(set_line)) {
-      // An end without a beginning: this line begins a set.
+      // Two -1 in a row: the second one begins a set.
       in.back(set_line);
       continue;
     }

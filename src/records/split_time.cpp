@@ -13,7 +13,7 @@ namespace {
 
 constexpr TimeParts kNoParts = {-1, -1, -1, -1, -1, -1, -1};
 
-/// What a part is called in lower case, and what it may be. The year of a name may have two digits.
+/// Names of a part of a time, in lower case, and its range. A column named as year may have two digits.
 struct Part {
   std::string_view names;
   double least, below;
@@ -27,7 +27,7 @@ constexpr std::array<Part, kTimeParts> kParts = {
      {"|second|seconds|sec|ss|s|sekunde|secondo|secondi|segundo|seconde|", 0.0, 61.0},
      {"|ms|msec|millis|millisec|millisecond|milliseconds|millisekunde|millisecondi|", 0.0, 1000.0}}};
 
-/// Each row has what a part may be in each of their columns.
+/// Whether the columns of the parts hold possible values in each row.
 bool hold_parts(const std::vector<std::vector<std::string_view>>& rows, const TimeParts& parts, bool decimal_comma,
                 bool named) {
   return std::ranges::all_of(rows, [&](const std::vector<std::string_view>& cells) {
@@ -49,7 +49,7 @@ TimeParts by_name(const std::vector<std::string>& names) {
     for (std::size_t k = 0; k < kTimeParts; ++k) {
       if (parts[k] >= 0 || !is_one_of(kParts[k].names, name)) continue;
       parts[k] = static_cast<int>(c);
-      break;  // "MM" is the month, "mm" behind it the minute
+      break;  // "MM" is the month, a later "mm" the minute
     }
   }
   return parts;

@@ -16,8 +16,8 @@ using Eigen::Index;
 
 namespace {
 
-/// Values that gaps of the clock may add in all (80 MB; ten channels at 100 Hz for 2.8 hours): a clock that jumps further is no
-/// gap but another record.
+/// Most values that gaps of the clock may add (80 MB; ten channels at 100 Hz for 2.8 hours). A longer gap is refused: two
+/// records.
 constexpr double kMostLost = 1e7;
 
 std::string rows_of(Index count, const char* what) { return fmt::format("{} {}{}", count, what, count == 1 ? "" : "s"); }
@@ -45,13 +45,12 @@ void note_gaps(RecordInfo& info, Index sign, Index all) {
   }
 }
 
-/// What the clock has against being one.
 void note_faults(RecordInfo& info) {
   const RecordClock& clock = info.clock;
   if (clock.stands_still) info.notes.push_back(info.rate_source + " stands still and says no rate");
   if (clock.reversed) info.notes.push_back(info.rate_source + ": the time runs backwards throughout");
   if (clock.steps_back >= 0) info.notes.push_back("the time runs backwards at " + place_of(info, clock.steps_back));
-  constexpr double even = 2.0;  // samples that stamps of their own may scatter about even ones
+  constexpr double even = 2.0;  // [samples] largest scatter of unshared stamps about even ones
   if (clock.shared_by == 1.0 && clock.scatter_s * clock.rate_Hz > even)
     info.notes.push_back(fmt::format("the time stamps lie {:.3g} samples about even ones: the samples may not be evenly spaced",
                                      clock.scatter_s * clock.rate_Hz));

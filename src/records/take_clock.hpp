@@ -16,7 +16,7 @@ namespace twindeck::records {
 /// @param unit_s  [s] of the stamps, 0 where the file does not say
 void take_clock(const StampedRows& stamps, double unit_s, const std::string& source, RecordInfo& info);
 
-/// Enters a rate that a header, a scalar or an attribute states. Stamps that are there go before it, unless they agree.
+/// Enters a rate that a header, a scalar or an attribute states. Time stamps take precedence, unless both agree.
 void take_stated_rate(double rate_Hz, const std::string& source, RecordInfo& info);
 
 /// [s] of a unit of time by its name ("ms", "µs", "sec" …); 0 for any other.

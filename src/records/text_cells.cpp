@@ -61,8 +61,8 @@ std::vector<std::string_view> cells_of(std::string_view line, char separator) {
 
 namespace {
 
-/// "1,234.5" -> "1234.5": groups of three digits with one sign between them, before a decimal sign or as two groups and more.
-/// One group behind a comma or point alone ("1,234") may be decimals and is left.
+/// "1,234.5" -> "1234.5": removes the separators between groups of three digits, if a decimal sign follows or if there are two
+/// separators. A single one ("1,234") may be a decimal sign and stays.
 std::optional<std::string> without_groups(std::string_view cell, char decimal) {
   const std::size_t end = std::min(cell.find(decimal), cell.size()), first = cell.find_first_of("0123456789");
   if (first > 1 || first >= end) return {};
@@ -97,7 +97,7 @@ std::optional<double> number_in(std::string_view cell, bool decimal_comma) {
   const char *begin = buffer.data() + (buffer[0] == '+' ? 1 : 0), *stop = buffer.data() + n;
   double value = 0.0;
   const auto [end, error] = std::from_chars(begin, stop, value);
-  constexpr double least = 9e36, most = 3.5e38;  // 9.9E37, 9.91E37 (SCPI), 1e38, the largest single number: nothing measured
+  constexpr double least = 9e36, most = 3.5e38;  // missing values: 9.9E37, 9.91E37 (SCPI), 1e38
   const bool none = std::abs(value) > least && std::abs(value) < most;
   if (error == std::errc() && end == stop) return std::isfinite(value) && !none ? value : nan;
   if (const auto joined = without_groups(cell, decimal_comma ? ',' : '.')) return number_in(*joined, decimal_comma);

@@ -9,14 +9,14 @@
 
 namespace twindeck::records {
 
-/// Cells of a line, blanks and quotes around them taken off; a last separator opens an empty cell.
+/// Cells of a line, without blanks and quotes around them. A separator at the end opens an empty cell.
 /// @param separator  ' ' for any run of blanks
 [[nodiscard]] std::vector<std::string_view> cells_of(std::string_view line, char separator);
 /// A number ("1,5" with a decimal comma; Fortran's D exponent; "1,234.5" in groups of three), NaN for a missing value (empty,
 /// NaN, ---, ***, #N/A, OVER …), nothing for other text.
 [[nodiscard]] std::optional<double> number_in(std::string_view cell, bool decimal_comma);
 
-/// Without blanks, line ends and quotes at both ends.
+/// The text without blanks, line ends and quotes at both ends.
 [[nodiscard]] std::string_view trimmed(std::string_view text);
 /// @param words  with '|' before and behind each
 [[nodiscard]] bool is_one_of(std::string_view words, const std::string& word);

@@ -23,7 +23,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-// What of a file's beginning is looked at for its layout: lines, bytes.
+// Part of a file that is examined for its layout: lines, bytes.
 constexpr std::size_t kLines = 2000;
 constexpr std::size_t kBytes = 4000000;
 
@@ -31,7 +31,7 @@ bool is_value(std::string_view cell, bool decimal_comma) {
   return number_in(cell, decimal_comma).has_value() || is_date(cell) || !time_stamp_meanings(cell).empty();
 }
 
-/// All cells are values and one at least is a number.
+/// Whether all cells are values and at least one is a number.
 bool is_data(std::string_view line, char separator, bool decimal_comma, std::size_t& count) {
   const auto cells = cells_of(line, separator);
   count = cells.size();
@@ -48,7 +48,7 @@ struct Run {
   std::size_t first = 0, length = 0, columns = 0;
 };
 
-/// No cell holds anything, or each holds a word for a missing value: such a line ends no run and begins none.
+/// Whether all cells are empty or words for a missing value. Such a line neither ends nor begins a run.
 bool holds_no_value(std::string_view line, char separator, bool decimal_comma) {
   const auto cells = cells_of(line, separator);
   return std::ranges::all_of(cells, [&](std::string_view cell) {
@@ -93,11 +93,10 @@ std::vector<std::string_view> header_cells(std::string_view text, char separator
   return cells;
 }
 
-/// LabVIEW closes its names with this one, whose cells stand in the rows only where somebody commented.
+/// LabVIEW's last column name is "Comment"; rows have such a cell only if there is a comment.
 bool is_comment(std::string_view name) { return io::lower_case(trimmed(name)) == "comment"; }
 
-/// How many columns the line above a run names, comments not counted: all of its cells are no values, and one at least holds
-/// letters. 0 for none.
+/// Number of columns that the line above a run names, without comments. 0 unless no cell is a value and one holds letters.
 std::size_t names_above(const std::vector<std::string>& lines, const Run& run, const TextLayout& layout) {
   for (std::size_t i = run.first; i-- > 0;) {
     const auto cells = header_cells(lines[i], layout.separator);
@@ -114,8 +113,8 @@ constexpr std::size_t kLeastRun = 3;
 
 bool fits(const Run& run, const TextLayout& layout) { return run.columns >= layout.fewest && run.columns <= layout.columns; }
 
-/// Columns of the table: cells that the last separator opens in each row, with no name above, are none; where the names are
-/// more than the cells of most rows, and some row has as many, the last cells are left out where they are empty.
+/// Finds the columns of the table. Cells that a separator at the end opens in all rows, without a name, do not count. If there
+/// are more names than cells in most rows, and some row has as many cells, the missing cells at the end are empty.
 void find_width(const std::vector<std::string>& lines, const std::vector<Run>& runs, TextLayout& layout) {
   const Run longest = longest_of(runs);
   const std::size_t named = names_above(lines, runs.front(), layout);
@@ -136,7 +135,7 @@ void find_width(const std::vector<std::string>& lines, const std::vector<Run>& r
   if (named > longest.columns && full) layout.columns = named;
 }
 
-/// The run that the data begin with: the first as wide as the table that is no part of a header.
+/// The run at which the data begin: the first one as wide as the table that does not belong to the header.
 Run first_of_data(const std::vector<std::string>& lines, const std::vector<Run>& runs, const TextLayout& layout) {
   const Run longest = longest_of(runs);
   for (const Run& run : runs) {
@@ -179,14 +178,14 @@ void split_unit(std::string& name, std::string& unit) {
   if (unit.size() > 2 && (unit.front() == '[' || unit.front() == '(')) unit = unit.substr(1, unit.size() - 2);
 }
 
-/// Names, of the nearest line above the numbers or, where that holds units, of the next one. Loggers write a third line between
-/// both and the numbers (a kind of sample, an amplifier), which repeats words: names tell columns apart.
+/// Reads the names from the nearest line above the numbers, or from the next one if that holds units. Some loggers write a
+/// further line between (a kind of sample, an amplifier). It repeats words, whereas names are different.
 void read_names(const std::vector<std::string>& lines, std::size_t first, TextLayout& layout) {
   std::vector<std::vector<std::string>> above;  // the nearest first
   for (std::size_t i = first; i-- > 0 && above.size() < 3;) {
     auto cells = header_cells(lines[i], layout.separator);
     if (cells.empty()) continue;
-    // Separators at the end of a line of names or units close it as they close the rows.
+    // A line of names or units may end in separators as the rows do.
     if (cells.size() < layout.columns && cells_of(lines[i], layout.separator).size() >= layout.columns)
       cells.resize(layout.columns);
     if (cells.size() == layout.columns + 1 && is_comment(cells.back())) cells.pop_back();
@@ -264,18 +263,18 @@ std::vector<std::vector<std::string_view>> first_rows(const std::vector<std::str
   return rows;
 }
 
-/// The columns of the time stamps that are found, which another column replaces as the record's clock.
+/// Drops the time stamps found so far, because another column gives the clock of the record.
 void leave_stamps(TextLayout& layout) {
   if (layout.time_column >= 0) layout.other_times.push_back(static_cast<std::size_t>(layout.time_column));
   layout.stamps = false;
   layout.time_parts.reset();
 }
 
-/// Columns of numbers that are time: by name if they rise, without names any that runs like time, and where no name says time
-/// any that is even to a sample (a table of LabVIEW calls it X_Value). The finest is the record's clock.
-/// @param finest  stamps that differ, in the column that is found so far
+/// Finds columns of numbers that are time. A column named as time must rise. In a file without names it must run like time. If
+/// no name says time, it must be even to a sample (LabVIEW calls it X_Value). The finest column is the clock of the record.
+/// @param finest  number of different stamps in the column found so far
 void find_numbers_of_time(const std::vector<std::vector<std::string_view>>& rows, std::size_t finest, TextLayout& layout) {
-  constexpr double other = 0.01;  // [-] off a rate: another clock
+  constexpr double other = 0.01;  // [-] relative difference of rates above which two clocks differ
   const bool names = !layout.names.empty();
   double clock_Hz = 0.0;
   const auto examine = [&](std::size_t c, bool named) {
@@ -315,10 +314,11 @@ void find_numbers_of_time(const std::vector<std::vector<std::string_view>>& rows
   }
 }
 
-/// A column of dates, and one of times of day for them: "20240517" and "100000.25" look like numbers, and stand side by side.
+/// Finds a column of dates with a column of times of day. Pairs such as "20240517" and "100000.25" look like numbers and must
+/// be neighbours.
 void find_date_and_time(const std::vector<std::vector<std::string_view>>& rows, TextLayout& layout) {
   const auto is_number = [&](std::size_t c) { return number_in(rows.front()[c], layout.decimal_comma).has_value(); };
-  const auto belong = [&](std::size_t date, std::size_t time) {  // in nine rows of ten
+  const auto belong = [&](std::size_t date, std::size_t time) {  // whether nine rows of ten give a time stamp
     return 10 * std::ranges::count_if(
                     rows,
                     [&](const std::vector<std::string_view>& row) {
@@ -329,7 +329,7 @@ void find_date_and_time(const std::vector<std::vector<std::string_view>>& rows, 
   for (std::size_t date = 0; date < layout.columns; ++date) {
     if (!is_date(rows.front()[date])) continue;
     for (std::size_t k = 1; k < layout.columns && layout.time_column < 0; ++k) {
-      const std::size_t time = (date + k) % layout.columns;  // the next one first
+      const std::size_t time = (date + k) % layout.columns;  // the next column first
       if ((k > 1 && is_number(time)) || !belong(date, time)) continue;
       layout.time_column = static_cast<int>(time);
       layout.date_column = static_cast<int>(date);
@@ -350,7 +350,7 @@ void find_time(const std::vector<std::vector<std::string_view>>& rows, TextLayou
   layout.stamps = layout.time_column >= 0;
   const auto last = static_cast<std::size_t>(std::max(layout.time_column, 0));
   const std::string_view stamp = rows.front()[last];
-  if (!layout.stamps || stamp.find_first_of(".,", stamp.rfind(':')) == std::string_view::npos)  // no fraction of its own
+  if (!layout.stamps || stamp.find_first_of(".,", stamp.rfind(':')) == std::string_view::npos)  // no fraction
     layout.time_parts = find_time_parts(rows, layout.names, layout.decimal_comma, layout.stamps);
   if (layout.time_parts) {
     for (const int part : *layout.time_parts)
@@ -363,7 +363,7 @@ void find_time(const std::vector<std::vector<std::string_view>>& rows, TextLayou
   find_numbers_of_time(rows, distinct, layout);
 }
 
-/// A row whose last cells are missing, or whose cells are words for missing values: it belongs to the rows below it.
+/// Whether a line is a row of the table with its last cells missing, or with words for missing values only.
 bool is_incomplete_row(const std::string& line, const TextLayout& layout) {
   std::size_t columns = 0;
   if (line.find_first_not_of(" \t\r;,|\"-=_+*:") == std::string::npos) return false;  // empty, or a ruler
@@ -373,7 +373,6 @@ bool is_incomplete_row(const std::string& line, const TextLayout& layout) {
          holds_no_value(line, layout.separator, layout.decimal_comma);
 }
 
-/// The first lines of a file as UTF-8.
 std::vector<std::string> first_lines(const fs::path& file, TextLayout& layout) {
   io::TextLines in(file);
   std::vector<std::string> lines;
@@ -397,9 +396,9 @@ std::vector<std::string> first_lines(const fs::path& file, TextLayout& layout) {
   return lines;
 }
 
-/// A column of whole numbers in groups of three ("1,234" beside "999") would be read as decimals.
+/// Refuses whole numbers in groups of three ("1,234" beside "999"), which would be read as decimals.
 void refuse_thousands(const std::vector<std::vector<std::string_view>>& rows, const TextLayout& layout, const fs::path& file) {
-  constexpr long least = 10;  // cells that all have three digits behind their sign: decimals end in a zero now and then
+  constexpr long least = 10;  // cells with three digits after the sign; decimals of so many cells would include fewer digits
   const char sign = layout.decimal_comma ? ',' : '.';
   for (std::size_t c = 0; c < layout.columns; ++c) {
     long grouped = 0, whole = 0, others = 0;
@@ -419,7 +418,7 @@ void refuse_thousands(const std::vector<std::vector<std::string_view>>& rows, co
   }
 }
 
-/// No table was found: what stands in the way, in the middle of the file.
+/// Refuses a file without a table and names the first text in its middle line.
 [[noreturn]] void refuse_text(const std::vector<std::string>& lines, const fs::path& file) {
   std::string reason;
   std::size_t most = 0;

@@ -17,11 +17,10 @@ struct TextLayout {
   bool decimal_comma = false;
   long first_data_line = 1;  ///< from 1
   std::size_t columns = 0;
-  std::size_t fewest = 0;          ///< cells of a row whose last ones are left out where they are empty
-  std::vector<std::string> names;  ///< one a column, empty where the file has none
-  std::vector<std::string> units;  ///< one a column, empty where it has none
-  std::vector<std::string>
-      unaligned;  ///< cells of the line above the numbers if it has another number of them than there are columns
+  std::size_t fewest = 0;              ///< least number of cells in a row; missing cells at the end are empty
+  std::vector<std::string> names;      ///< one a column, empty where the file has none
+  std::vector<std::string> units;      ///< one a column, empty where it has none
+  std::vector<std::string> unaligned;  ///< cells of the line above the numbers, if not one a column
   long unaligned_line = 0;
   int time_column = -1;
   int date_column = -1;                  ///< of the dates, where the stamps of time_column are times of day

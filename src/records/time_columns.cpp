@@ -12,7 +12,7 @@ using Eigen::Index;
 
 namespace {
 
-constexpr Index kLeast = 16, kEnough = 256;  ///< rows: no vibration rises that often in a row
+constexpr Index kLeast = 16, kEnough = 256;  ///< rows for the decision: no vibration rises so many times in a row
 
 }  // namespace
 

@@ -7,16 +7,16 @@
 
 namespace twindeck::records {
 
-/// Stands between a matrix, or vectors of one length, without names and the visitor. A column that runs like time in the first
-/// rows is the time of the others and no channel: the first column loosely, any other if it is even to a sample.
+/// Passes the samples of unnamed columns to a visitor and finds columns of time among them. A column that runs like time in the
+/// first rows is time and no channel. The first column may scatter; any other must be even to a sample.
 class TimeColumns {
  public:
   /// @param channels  columns, of which one at least stays a channel
   TimeColumns(const Visitor& visit, Eigen::Index channels) : visit_(visit), channels_(channels) {}
   /// Whole rows, or one column after another.
   void operator()(Eigen::Index first_sample, Eigen::Index first_channel, const Eigen::MatrixXd& block);
-  /// After the last block. Visits what was held back, takes columns of time out of the list of channels, and sets the clock to
-  /// that of the finest of them.
+  /// Called after the last block. Visits the blocks held back, removes columns of time from the list of channels, and takes the
+  /// clock of the finest of them.
   void finish(RecordInfo& info);
 
  private:

@@ -18,7 +18,6 @@ constexpr double kHour_s = 3600.0, kDay_s = 86400.0;  ///< [s]
 
 bool is_digit(char c) { return c >= '0' && c <= '9'; }
 
-/// Reads numbers and the characters between them.
 class Scanner {
  public:
   explicit Scanner(std::string_view text) : text_(text) { skip_blanks(); }
@@ -77,7 +76,7 @@ struct DayTime {
   double ahead = 0.0;    ///< [s] of UTC
 };
 
-/// "Z", "UTC", "CEST", "+02:00", "-0530", or nothing: what may stand behind a time, up to the end.
+/// "Z", "UTC", "CEST", "+02:00", "-0530", or nothing: whether a time zone ends the text.
 /// @param name  letters before the scanner's place @param ahead  [s] of UTC by an offset in numbers
 bool ends_in_zone(Scanner& in, std::string_view name, double& ahead) {
   constexpr std::size_t longest = 5;  // letters
@@ -97,7 +96,7 @@ std::optional<DayTime> time_of_day(Scanner& in, bool behind_date) {
   long hour = 0, minute = 0, second = 0, part = 0;
   int digits = 0;
   if (!in.number(hour, digits)) return {};
-  if (behind_date && (digits == 5 || digits == 6)) {  // 93000: half past nine as a number
+  if (behind_date && (digits == 5 || digits == 6)) {  // 93000 is half past nine as a number
     second = hour % 100;
     minute = hour / 100 % 100;
     hour /= 10000;
@@ -209,7 +208,7 @@ std::optional<double> TimeStampReader::next(std::string_view text) {
   std::vector<double> meanings = time_stamp_meanings(text);
   if (meanings.empty()) return {};
   if (is_minutes(text)) {
-    constexpr double least = 0.98;  // of an hour, that a step back over a full hour is at least
+    constexpr double least = 0.98;  // [h] least step back that is a full hour passed
     if (last_ && *last_ - hours_ - meanings[0] > least * kHour_s) hours_ += kHour_s;
     meanings[0] += hours_;
   }

@@ -19,18 +19,18 @@ namespace twindeck::records {
 /// "2021-04-03", "03.04.2021", "4/3/21", "3-Apr-2021": a date without a time.
 [[nodiscard]] bool is_date(std::string_view cell);
 
-/// Turns a column of time stamps into seconds, row by row: of the meanings of a stamp, the one that follows the last by the
-/// least. A logger that exchanges day and month on the first twelve days of a month is so put right.
+/// Turns a column of time stamps into seconds, row by row. Of several meanings it takes the first one after the previous stamp.
+/// This corrects loggers that exchange day and month on the first twelve days of a month.
 class TimeStampReader {
  public:
   /// @return seconds, empty for no time stamp
   std::optional<double> next(std::string_view text);
-  /// Rows whose second meaning was taken although the first was there.
+  /// Number of rows whose first meaning was not taken.
   [[nodiscard]] long exchanged() const { return exchanged_; }
 
  private:
   std::optional<double> last_;
-  double hours_ = 0.0;  ///< [s] of full hours that minutes and seconds passed
+  double hours_ = 0.0;  ///< [s] full hours passed, for stamps of minutes and seconds
   long exchanged_ = 0;
 };
 

@@ -39,7 +39,7 @@ struct UniversalData {
   bool has_header = false, has_units = false;  ///< sets 151, 164
   double length_factor = 1.0;                  ///< set 164: file lengths are metres times this
   std::map<long, Eigen::Vector3d> nodes;       ///< sets 15, 2411 [m]
-  std::map<long, std::array<long, 2>> axes;    ///< numbers of the axes that a node's place and its motion are given in
+  std::map<long, std::array<long, 2>> axes;    ///< numbers of the axes for the position and the motion of a node
   std::vector<UniversalElement> elements;      ///< set 2412
   std::vector<std::vector<long>> lines;        ///< set 82: chains of nodes
   std::vector<NodalResult> results;            ///< set 55

@@ -124,13 +124,13 @@ std::vector<double> numbers_in(const std::string& line) {
     } else if (i + 1 < line.size() && (line[i] == '-' || line[i] == '+') && is_digit(i + 1) &&
                text.find('.') != std::string::npos && i + 4 >= line.size() &&
                line.find_first_of(" \t", i) == std::string::npos) {
-      // "1.0-100": an exponent of three digits that left no room for its letter.
+      // "1.0-100": a three-digit exponent without its letter
       text += "e" + line.substr(line[i] == '+' ? i + 1 : i);
       i = line.size();
     }
     double value = 0.0;
     const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-    // Beyond what a number can hold strtod gives infinity or the nearest to zero, from_chars nothing.
+    // For numbers out of range strtod gives infinity or the nearest number to zero, from_chars nothing.
     numbers.push_back(error == std::errc::result_out_of_range ? std::strtod(text.c_str(), nullptr) : value);
     at = i;
   }

@@ -19,7 +19,7 @@ namespace {
 
 constexpr Index kTranslations = 3;
 constexpr std::array<const char*, 3> kAxes = {"x", "y", "z"};
-/// [-] of the largest component of its mode: what the six digits of a set's numbers do not tell from nothing.
+/// [-] of the largest component of its mode: smaller components are below the six digits of a set's numbers.
 constexpr double kStill = 1e-6;
 
 [[noreturn]] void refuse(const fs::path& file, const std::string& problem, const std::string& mend) {
@@ -68,13 +68,12 @@ std::vector<long> nodes_of(const std::vector<NodalResult>& modes, const Universa
   return nodes;
 }
 
-/// A translation of a node.
 struct Motion {
   long node = 0;
   Index axis = 0;
 };
 
-/// Those by which any mode moves by more than its digits tell.
+/// Translations in which some mode moves by more than that.
 std::vector<Motion> measured_motions(const std::vector<NodalResult>& modes, const std::vector<long>& nodes) {
   std::vector<double> least;  // of each mode
   for (const NodalResult& mode : modes) {
@@ -93,7 +92,7 @@ std::vector<Motion> measured_motions(const std::vector<NodalResult>& modes, cons
   return motions;
 }
 
-/// The numbers of the file where they are numbers of modes, else 1, 2, …
+/// Mode numbers of the file if they are positive and different, else 1, 2, …
 std::vector<std::string> names_of(const std::vector<NodalResult>& modes) {
   std::set<int> numbers;
   for (const NodalResult& mode : modes) numbers.insert(mode.mode);

@@ -122,7 +122,6 @@ Index read_result_header(UniversalLines& in, NodalResult& result) {
   return per_node;
 }
 
-/// The values that follow the line of a node.
 Eigen::VectorXcd read_node_values(UniversalLines& in, long node, Index per_node, bool complex) {
   const auto wanted = static_cast<std::size_t>(per_node * (complex ? 2 : 1));
   std::vector<double> values;

@@ -8,7 +8,7 @@ namespace twindeck::records {
 
 namespace {
 
-/// |dz| of a vertical channel: within 5 degrees, more than the fall of a deck. Such a tilt takes 0.4 % from a vertical motion.
+/// Least |dz| of a vertical channel: a tilt of 5 degrees, more than the slope of a deck. It reduces a vertical motion by 0.4 %.
 constexpr double kLeastVertical = 0.9962;
 
 }  // namespace
@@ -22,7 +22,7 @@ std::string other_than_vertical_acceleration(const CampaignChannel& channel, con
     return fmt::format("its direction is ({:.3g}, {:.3g}, {:.3g})", channel.direction.x(), channel.direction.y(),
                        channel.direction.z());
   const double distance = (channel.position_m - point_m).norm();
-  if (distance > tolerance_m)  // a position that is not given is no contradiction
+  if (distance > tolerance_m)  // false for a position that is not given (NaN)
     return fmt::format("it lies {:.3g} m from the point, expected at most {:.3g} m", distance, tolerance_m);
   return "";
 }

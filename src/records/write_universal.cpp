@@ -15,7 +15,7 @@ constexpr const char* kDelimiter = "    -1\n";
 
 std::string text_line(const std::string& text) { return fmt::format("{:<80}\n", text.substr(0, 80)); }
 
-/// E13.5 and its kin: values side by side, `a_line` of them.
+/// Values in fields such as E13.5, `a_line` of them per line.
 std::string value_lines(const std::vector<double>& values, std::size_t a_line, int total, int digits) {
   std::string text;
   for (std::size_t i = 0; i < values.size(); ++i) {
@@ -46,7 +46,6 @@ std::string node_text(const UniversalData& data) {
   return text + kDelimiter;
 }
 
-/// Labels, eight a line.
 std::string label_lines(const std::vector<long>& labels) {
   std::string text;
   for (std::size_t k = 0; k < labels.size(); ++k) {
