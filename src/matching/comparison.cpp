@@ -68,7 +68,7 @@ Pairing pair_at_sensors(const Measured& measured, const dynamics::LoadedModel& m
     throw InputError({measured.source, 0, "shape"}, "holds no measured shape, so that modes can't be paired by MAC",
                      "give shapes, or pairs");
   const Eigen::MatrixXcd phi_n = shapes_at_sensors(measured, model, modes, sensor_tolerance_m);
-  // A mode that stands still at every sensor has no MAC; it can't be anybody's partner and takes part with zeros.
+  // A mode without motion at the sensors has no MAC. It can have no partner and takes part with zeros.
   std::vector<Index> moving;
   for (Index j = 0; j < phi_n.cols(); ++j)
     if (phi_n.col(j).norm() > 1e-9 * modes.shapes.col(j).cwiseAbs().maxCoeff()) moving.push_back(j);

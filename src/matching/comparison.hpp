@@ -12,7 +12,7 @@
 #include "matching/mode_name.hpp"
 #include "matching/pairing.hpp"
 
-/// Measured against computed modes: who is whose, and how far apart.
+/// Measured modes against computed modes: pairs and their differences.
 namespace twindeck::matching {
 
 /// How measured modes were given their numerical partners.
@@ -22,7 +22,7 @@ struct Pairing {
   Eigen::MatrixXd mac;                  ///< (n_N × n_X) at the sensors, NaN of a mode without a shape; empty if none has one
   Eigen::MatrixXd likeness;             ///< (n_N × n_X) the same, with the subspace MAC of close modes (Likeness)
   Eigen::MatrixXcd shapes;              ///< (n_channels × n_N) computed ones at the sensors; empty likewise
-  std::vector<std::string> unmeasured;  ///< measured modes of a published list that are not among the measured ones
+  std::vector<std::string> unmeasured;  ///< measured modes that a published list names but the measurement lacks
 };
 
 /// Lowest measured with lowest computed mode, and so on, in whatever order the measured modes are given; only the measured
@@ -36,7 +36,7 @@ struct Pairing {
 [[nodiscard]] Pairing pair_as_published(const Measured& measured, Eigen::Index n_numerical,
                                         const std::vector<std::string>& published, const Place& place);
 
-/// What of the pairing can be refused before anything is solved. @param n_modes  that will be computed
+/// Refuses what the files alone show to be wrong, before anything is solved. @param n_modes  number of modes to be computed
 /// @throws InputError  as pair_as_published, or as pair_at_sensors where shapes were measured
 void check_pairing(const Measured& measured, const dynamics::ReadModel& model, const std::vector<std::string>& published,
                    const Place& place, long n_modes, double sensor_tolerance_m);

@@ -14,10 +14,10 @@ namespace {
 
 using Eigen::Index;
 
-constexpr double one_shape_mac = 0.95;  ///< [-] two measured shapes above it are one to within five per cent of their energy
+constexpr double one_shape_mac = 0.95;       ///< [-] MAC above which two measured shapes count as one
 constexpr Index fewest_shared_channels = 3;  ///< at two channels a MAC of 1 is common between different modes
 
-/// MAC over the channels that both shapes have; 0 where these are too few.
+/// MAC over the channels that both shapes have; 0 with fewer than three.
 double shared_mac(const Eigen::VectorXcd& a, const Eigen::VectorXcd& b) {
   std::vector<Index> both;
   for (const Index row : modal::measured_rows(a))

@@ -46,8 +46,8 @@ struct Measured {
   std::vector<std::string> labels;  ///< (n_modes) "7X"
   std::vector<Channel> channels;    ///< empty without channels.csv
   std::string source;               ///< folder, for messages
-  std::vector<MeasuredRow> rows;    ///< whatever has a standard deviation: frequencies, and shapes of a features folder
-  Eigen::MatrixXd covariance;       ///< (n_rows × n_rows) of covariance.npy, else the squared deviations
+  std::vector<MeasuredRow> rows;    ///< all values with a standard deviation: frequencies, and shapes of a features folder
+  Eigen::MatrixXd covariance;       ///< (n_rows × n_rows) from covariance.npy, else the squared deviations on the diagonal
 };
 
 }  // namespace twindeck::matching

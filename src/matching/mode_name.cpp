@@ -11,7 +11,7 @@ namespace twindeck::matching {
 
 namespace {
 
-constexpr std::size_t kMostDigits = 6;  ///< of a computed mode's number: no solver is asked for a million modes
+constexpr std::size_t kMostDigits = 6;  ///< of a computed mode's number: no solver computes a million modes
 
 /// "<measured mode>-<number>N", the number from 1 without leading zeros; nothing for any other text.
 std::optional<NamedPair> parse(const std::string& entry) {

@@ -13,10 +13,12 @@ namespace {
 using Eigen::Index;
 using Eigen::MatrixXd;
 
-/// [-] Weight of a pair's own MAC beside the subspace MAC that all members of a run have in common: the nearer shape first.
+/// [-] Weight of a pair's own MAC beside the subspace MAC. All members of a cluster have the same subspace MAC, so the own MAC
+/// decides between them.
 constexpr double nearer_shape = 1e-3;
 
-/// [-] Weight of the nearness in frequency: far above rounding, far below what measured shapes tell. It decides ties.
+/// [-] Weight of the nearness in frequency. It decides between equal MACs only: it is far above rounding and far below the
+/// differences of measured MACs.
 constexpr double nearer_frequency = 1e-9;
 
 /// Runs of modes whose neighbours in frequency are closer than `gap`; runs of one are left out.
@@ -39,8 +41,8 @@ MatrixXd relative_error(const Eigen::VectorXd& frequency_x, const Eigen::VectorX
          frequency_x.replicate(1, frequency_n.size()).array();
 }
 
-/// Share of `x` that lies in the span of the columns of `basis`: what is missing once x is made orthogonal to each of them
-/// (modified Gram and Schmidt, the longest column left comes first; columns of which only rounding is left are passed over).
+/// Share of `x` that lies in the span of the columns of `basis`. Makes x orthogonal to the columns by modified Gram-Schmidt,
+/// the longest column first; what is left of x is outside the span. Columns of rounding size are skipped.
 double subspace_mac(Eigen::MatrixXcd basis, const Eigen::MatrixXcd& x) {
   const double rounding = std::numeric_limits<double>::epsilon() * static_cast<double>(basis.cols()) * basis.norm();
   Eigen::VectorXcd rest = x;
@@ -92,12 +94,12 @@ Likeness likeness_of(const Eigen::VectorXd& frequency_x, const Eigen::MatrixXcd&
     out.gain.row(i) = mac.row(i) + nearer_frequency * nearness.row(i);
   }
   for (const std::vector<Index>& run : clusters(frequency_n, options.cluster_gap)) {
-    // Where there are no more sensors than close modes any shape lies in their span, which then says nothing.
+    // With no more sensors than close modes, any shape lies in their span, so the subspace MAC has no meaning.
     for (Index i = 0; i < n_x; ++i) {
       const std::vector<Index> rows = modal::measured_rows(phi_x.col(i));
       if (run.size() >= rows.size()) continue;
       const double share = subspace_mac(phi_n(rows, run), phi_x(rows, Eigen::seqN(i, 1)));
-      // A shape that is like one member by itself has not turned within the span: it is not like the others.
+      // A shape that resembles one member has not rotated within the span. It keeps its own MACs.
       if (share < options.cluster_mac || out.value(i, run).maxCoeff() >= options.cluster_mac) continue;
       for (const Index j : run) {
         out.gain(i, j) = share + nearer_shape * out.value(i, j) + nearer_frequency * nearness(i, j);
@@ -114,7 +116,7 @@ std::vector<ModePair> pair_by_likeness(const Eigen::VectorXd& frequency_x, const
   const Eigen::Array<bool, Eigen::Dynamic, Eigen::Dynamic> admissible =
       relative_error(frequency_x, frequency_n).array() <= options.maximum_frequency_error;
   const MatrixXd gain = (admissible && !(like.value.array() < options.minimum_mac))
-                            .select(like.gain, 0.0);  // what will be left out must not crowd out a good pair
+                            .select(like.gain, 0.0);  // left-out pairs must not displace others
 
   std::vector<ModePair> pairs;
   const std::vector<int> column = best_assignment(gain);

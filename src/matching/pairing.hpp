@@ -17,7 +17,7 @@ struct ModePair {
 
 struct PairingOptions {
   double minimum_mac = 0.0;               ///< pairs below it are left out
-  double maximum_frequency_error = 0.35;  ///< relative; pairs with a larger error are not admitted
+  double maximum_frequency_error = 0.35;  ///< relative; larger errors of frequency are not admitted
   double cluster_gap = 0.02;              ///< relative frequency gap below which modes count as close
   double cluster_mac = 0.8;               ///< least MAC of a shape that is like a close mode, or lies in the span of several
 };

@@ -17,16 +17,15 @@ namespace {
 using Eigen::Index;
 
 constexpr double same_shape_mac = 0.9;  ///< [-] the usual mark of one and the same mode
-constexpr int fewest_same_shapes = 3;   ///< two ratios agree by chance
-constexpr double least_factor = 1.10;   ///< [-] between frequencies: models as drawn are nearer than that, or off mode by mode
-constexpr double factor_spread =
-    0.25;  ///< [-] of ln(factor): how far the single ratios may lie from it and still be one factor
+constexpr int fewest_same_shapes = 3;   ///< fewer frequency ratios may agree by chance
+constexpr double least_factor = 1.10;   ///< [-] between frequencies; usual models are nearer, or off mode by mode
+constexpr double factor_spread = 0.25;  ///< [-] of ln(factor): largest distance of a single ratio from it
 std::string guess_of(double ratio) {
   return dynamics::slip_of_factor(ratio).value_or(
       fmt::format("look for a unit or a mass; stiffness over mass is {:.3g} times what was measured", ratio * ratio));
 }
 
-/// Each measured mode's computed one by shape alone, one-to-one; -1 where none is the same.
+/// The computed mode with the shape of each measured one, one-to-one; -1 where no MAC reaches `same_shape_mac`.
 std::vector<int> same_shapes(const Eigen::MatrixXd& mac) {
   const Eigen::MatrixXd alike = (mac.array() >= same_shape_mac).select(mac.array(), 0.0).matrix().transpose();
   std::vector<int> at = matching::follow_modes(alike);
@@ -36,7 +35,8 @@ std::vector<int> same_shapes(const Eigen::MatrixXd& mac) {
 }
 
 /// Pairs for one factor on all frequencies, which keeps the order of the modes. At few channels several computed modes have the
-/// shape of a measured one. This takes the lowest of them that lies above the pair before; the assignment above takes any.
+/// shape of a measured one. This function takes the lowest of them above the computed mode of the previous pair. `same_shapes`
+/// may take any of them.
 std::vector<int> same_shapes_in_order(const Eigen::MatrixXd& mac, const Eigen::VectorXd& measured_Hz) {
   std::vector<int> order(static_cast<std::size_t>(mac.cols())), at(order.size(), -1);
   std::iota(order.begin(), order.end(), 0);
@@ -48,7 +48,8 @@ std::vector<int> same_shapes_in_order(const Eigen::MatrixXd& mac, const Eigen::V
   return at;
 }
 
-/// Computed over measured frequencies of modes of one shape, ascending, if they are enough and one factor.
+/// Ratios of computed to measured frequency for modes of one shape, ascending. Empty if there are too few or they are not one
+/// factor.
 std::optional<std::vector<double>> ratios_of_one_factor(const std::vector<int>& same, const Eigen::VectorXd& measured_Hz,
                                                         const Eigen::VectorXd& computed_Hz) {
   std::vector<double> ratios;
@@ -65,14 +66,14 @@ std::optional<std::vector<double>> ratios_of_one_factor(const std::vector<int>& 
 }
 
 std::string few(const std::vector<std::string>& names) {
-  constexpr std::size_t most = 6;  // a line is read to its end only if it is short
+  constexpr std::size_t most = 6;  // names in a message; a line is read to its end only if it is short
   if (names.size() <= most) return fmt::format("{}", fmt::join(names, ", "));
   return fmt::format("{} and {} more", fmt::join(names.begin(), names.begin() + most, ", "), names.size() - most);
 }
 
-constexpr Index fewest_channels = 4;     ///< turning one of three is as good as turning the other two
-constexpr double part_left = 1.0 / 3.0;  ///< [-] of 1 - MAC, that turning the right channel may leave: model errors and noise
-constexpr double least_gain = 0.05;      ///< [-] of the mean MAC: less is within what models and noise do
+constexpr Index fewest_channels = 4;     ///< with three channels, reversing one has the same effect as reversing the other two
+constexpr double part_left = 1.0 / 3.0;  ///< [-] of 1 - MAC that may remain after the right channel is reversed
+constexpr double least_gain = 0.05;      ///< [-] least gain of the mean MAC; model errors and noise may give less
 
 }  // namespace
 

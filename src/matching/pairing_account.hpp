@@ -22,7 +22,7 @@ inline constexpr double usual_least_paired = 0.5;
 struct PairingAccount {
   bool by_shape = false;                ///< false: by order or by a published list; shapes do not show its quality
   int measured = 0;                     ///< number of modes that are paired or not above the highest computed mode
-  std::vector<std::string> unpaired;    ///< those of these modes that have no partner
+  std::vector<std::string> unpaired;    ///< modes counted in `measured` that have no partner
   std::vector<std::string> beyond;      ///< measured modes above the highest computed mode, not paired
   double worst_mac = kUnknown;          ///< smallest MAC of the pairs; NaN if no pair has one
   std::string worst;                    ///< its pair, "3X-4N"
@@ -49,8 +49,8 @@ struct PairingAccount {
 [[nodiscard]] std::optional<std::string> common_factor(const Measured& measured, const Pairing& pairing,
                                                        const Eigen::VectorXd& computed_Hz);
 
-/// Looks for pairs by order whose frequencies are too far apart: from a mode that is missing or stands twice on, all pairs by
-/// order are wrong.
+/// Looks for pairs by order whose frequencies are too far apart. If a mode is missing or listed twice, all pairs by order above
+/// it are wrong.
 /// @param maximum_error  [-] of a frequency
 /// @return a sentence with these pairs; empty if there is none, or the pairing was made otherwise
 [[nodiscard]] std::optional<std::string> far_by_order(const Measured& measured, const Pairing& pairing,
@@ -69,10 +69,10 @@ void warn_of_pairing(Reporter& reporter, const PairingAccount& account, const st
 void refuse_few_pairs(const PairingAccount& account, double least_paired, double minimum_mac, const std::string& source,
                       const std::optional<std::string>& factor);
 
-/// The channel whose shapes agree with the paired computed ones if its sign is turned, named in a sentence. Turning it has to
-/// take away most of what the MACs lack, over all pairs together, and a part that counts. On a sound channel that moves,
-/// turning makes things worse.
-/// @return nothing where no channel does so, with fewer than two pairs, or with too few channels to tell one from the rest
+/// The channel whose shapes agree with the paired computed ones if its sign is reversed, in a sentence. The reversal must
+/// remove two thirds of 1 - MAC, summed over all pairs, and raise the mean MAC by 0.05. For a sound channel that moves, a
+/// reversal lowers the MAC.
+/// @return nothing where no channel meets this, with fewer than two pairs, or with fewer than four channels
 [[nodiscard]] std::optional<std::string> reversed_channel(const Measured& measured, const Pairing& pairing);
 
 }  // namespace twindeck::matching

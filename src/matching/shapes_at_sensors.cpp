@@ -16,14 +16,14 @@ using Eigen::Index;
 
 const std::array<std::string, 6> kDirections = {"x", "y", "z", "rx", "ry", "rz"};
 
-/// What to do about a sensor that lies on no node: another unit, where that brings it to one.
+/// Advice for a sensor that lies on no node: another unit, if that brings it to a node.
 std::string mend_of_position(const ModelPoints& points, const Eigen::Vector3d& x_m, double tolerance_m) {
   const auto meets_a_node = [&](double factor) {
     return std::any_of(points.x_m.begin(), points.x_m.end(), [&](const Eigen::Vector3d& node) {
       return (node - factor * x_m).norm() <= tolerance_m * std::max(1.0, factor);
     });
   };
-  // A node at the origin would meet any position that is small enough.
+  // In a smaller unit any position would lie within the tolerance of a node at the origin.
   if (1e-3 * x_m.norm() > tolerance_m && meets_a_node(1e-3))
     return "in mm it would lie on a node: give x_m, y_m, z_m of channels.csv in m";
   if (x_m.norm() > tolerance_m && meets_a_node(1e3)) return "the model seems to be in mm: give x_m, y_m, z_m of nodes.csv in m";
@@ -44,7 +44,7 @@ Cosines stated_cosines(const modal::ShapeDof& dof, const Channel* channel) {
   return cosine;
 }
 
-/// What to do where nodes coincide and a sensor may stand on any of them.
+/// What happens if nodes coincide and the sensor may stand on any of them.
 enum class Doubt { refused, first };
 
 std::size_t one_of(const ModelPoints& points, std::size_t nearest, const modal::ShapeDof& dof, const Channel& channel,
@@ -67,7 +67,8 @@ std::size_t one_of(const ModelPoints& points, std::size_t nearest, const modal::
 
 std::size_t node_of(const ModelPoints& points, const modal::ShapeDof& dof, const Channel* channel, const Measured& measured,
                     double tolerance_m, Doubt doubt) {
-  // Positions go before names: a sensor point called "12" need not be node 12. Among nodes at one place the name decides.
+  // The position decides before the name: a sensor point called "12" need not be node 12. Among nodes at one position the name
+  // decides.
   if (channel != nullptr && channel->x_m) {
     std::size_t nearest = 0;
     double least = std::numeric_limits<double>::infinity();
@@ -99,7 +100,6 @@ struct ChannelPart {
   double cosine = 0.0;
 };
 
-/// The parts of each measured degree of freedom.
 std::vector<std::vector<ChannelPart>> placed(const Measured& measured, const ModelPoints& points, double tolerance_m,
                                              Doubt doubt = Doubt::first) {
   std::vector<std::vector<ChannelPart>> out(measured.modes.dofs.size());
@@ -111,7 +111,7 @@ std::vector<std::vector<ChannelPart>> placed(const Measured& measured, const Mod
     Cosines cosine = stated_cosines(dof, channel);
     const bool stated = cosine != Cosines{};
     if (!stated && std::count_if(points.row[node].begin(), points.row[node].end(), [](Index row) { return row >= 0; }) == 1) {
-      // A node that carries one dof: the channel can mean nothing else.
+      // The node has one degree of freedom, so the channel must measure it.
       for (std::size_t d = 0; d < 6; ++d) cosine[d] = points.row[node][d] >= 0 ? 1.0 : 0.0;
     } else if (!stated) {
       throw InputError({measured.source, 0, dof.direction},

@@ -35,8 +35,8 @@ void refuse_unplaced_channels(const Measured& measured, const dynamics::ReadMode
 /// @throws InputError  as above
 [[nodiscard]] Eigen::MatrixXd sensor_vectors(const Measured& measured, const dynamics::LoadedModel& model, double tolerance_m);
 
-/// Where the modes of a model are known, and which of several nodes at one place a sensor may stand on.
-/// Six values a node (FE), or single dofs (matrix model).
+/// Where the modes of a model are known, and which of several nodes at one position a sensor may stand on. A finite element
+/// model has six values a node, a matrix model single degrees of freedom.
 struct ModelPoints {
   std::vector<std::string> node;                  ///< name of each node
   std::vector<Eigen::Vector3d> x_m;               ///< NaN where unknown
@@ -49,16 +49,17 @@ struct ModelPoints {
 /// @param model  null for a matrix model, whose points are those of its `dofs`
 [[nodiscard]] ModelPoints points_of(const fe::Model* model, const std::vector<fe::DofLabel>& dofs);
 
-/// Nodes at the place of one of them, itself among them, in the order of the model.
+/// Nodes at the position of one node, itself among them, in the order of the model.
 [[nodiscard]] std::vector<std::size_t> nodes_at_the_place_of(const ModelPoints& points, std::size_t node);
 
-/// Those of several nodes at one place that a sensor may stand on: the one that bears its name (in points.csv of the model, or
-/// as its id), else those that can move (of a matrix model: that have a degree of freedom along the sensor). Never empty.
+/// Nodes among several at one position that a sensor may stand on. The node that bears the sensor's name (in points.csv of the
+/// model, or as its id) comes first. Otherwise all nodes that can move are possible; in a matrix model, those with a degree of
+/// freedom along the sensor. Never empty.
 /// @param cosine  of the sensor along x … rz; zeros where unknown
 [[nodiscard]] std::vector<std::size_t> possible_nodes(const ModelPoints& points, const std::vector<std::size_t>& there,
                                                       const std::string& name, const std::array<double, 6>& cosine);
 
-/// Whether nodes move alike along a sensor whatever the structure does: links, supports or constraints see to it.
+/// Whether links, supports or constraints make nodes move alike along a sensor in any motion of the structure.
 /// @param cosine  as above
 [[nodiscard]] bool move_as_one(const ModelPoints& points, const std::vector<std::size_t>& nodes,
                                const std::array<double, 6>& cosine);

@@ -35,7 +35,7 @@ std::map<std::array<long, 3>, Index> nodes_by_place(const fe::Model& model) {
   return at;
 }
 
-/// Modes that move at some of the rows, by more than rounding.
+/// Modes whose motion at some of the rows is more than rounding.
 std::vector<Index> moving_modes(const MatrixXd& shapes, const std::vector<Index>& rows) {
   std::vector<Index> moving;
   for (Index j = 0; j < shapes.cols(); ++j)
@@ -47,7 +47,7 @@ std::vector<Index> moving_modes(const MatrixXd& shapes, const std::vector<Index>
 /// meshes differ, at the translations of the nodes that they have in common (the same coordinates).
 MatrixXd mac_between(const SolvedModel& a, const SolvedModel& b) {
   if (same_dofs(a.loaded.system, b.loaded.system)) {
-    // b is normalised with its own mass; divided by its norm in a's, the entries are squared cosines.
+    // b is normalised with its own mass. Divided by its norm in the mass of a, the entries are squared cosines.
     const Eigen::VectorXd norm =
         b.modes.shapes.cwiseProduct(a.mass.selfadjointView<Eigen::Lower>() * b.modes.shapes).colwise().sum();
     return modal::mass_weighted_mac(a.mass_shapes, b.modes.shapes) * norm.cwiseInverse().asDiagonal();
@@ -69,7 +69,7 @@ MatrixXd mac_between(const SolvedModel& a, const SolvedModel& b) {
   if (rows_a.empty())
     throw InputError({b.loaded.source, 0, ""}, "has no node where " + a.loaded.source + " has one",
                      "compare models in the same coordinates");
-  // A mode that only turns there (torsion of a line of beams) has no MAC: what is left of its translations is rounding.
+  // A mode that only rotates at these nodes (torsion of a line of beams) has no MAC: its translations are rounding.
   const std::vector<Index> moving_a = moving_modes(full_a, rows_a), moving_b = moving_modes(full_b, rows_b);
   MatrixXd mac = MatrixXd::Zero(full_a.cols(), full_b.cols());
   const MatrixXd common_a = full_a(rows_a, moving_a), common_b = full_b(rows_b, moving_b);
@@ -93,7 +93,7 @@ SolvedModel solve_modes(dynamics::LoadedModel loaded, int n_modes) {
 TrackedModes follow(const SolvedModel& reference, const SolvedModel& changed, Index count) {
   TWINDECK_ASSERT(count <= reference.modes.frequency_Hz.size());
   const MatrixXd likeness = mac_between(reference, changed);
-  // Every mode of the reference takes part in the assignment, so that a partner is not given to one and claimed by another.
+  // Every mode of the reference takes part in the assignment, so that one computed mode does not serve two.
   const std::vector<int> position = matching::follow_modes(likeness);
   const Eigen::VectorXd lost = Eigen::VectorXd::Constant(count, std::numeric_limits<double>::quiet_NaN());
   TrackedModes followed{lost, lost, {}};

@@ -27,7 +27,7 @@ Stop first_bound(const Eigen::VectorXd& s, const Eigen::VectorXd& direction, con
   return stop;
 }
 
-// Held component with the most wrongly signed multiplier, -1 if all signs are right: then s is the solution.
+// Held component whose multiplier has the wrong sign by the largest amount; -1 if all signs are right, then s is the solution.
 Eigen::Index wrongly_held(const Eigen::VectorXd& gradient, const std::vector<int>& side, double tolerance) {
   Eigen::Index worst = -1;
   double most = tolerance;
@@ -50,7 +50,7 @@ Eigen::VectorXd bounded_gauss_newton_step(const Eigen::VectorXd& residual, const
   const double tolerance = 1e-14 * (slope.norm() + hessian.norm());
   Eigen::VectorXd s = Eigen::VectorXd::Zero(n);
   std::vector<int> side(static_cast<std::size_t>(n), 0);  // -1, +1: held on that bound
-  // Each pass holds one component more or releases one; the cost falls strictly between releases.
+  // Each pass holds one more component or releases one. Between releases the cost falls strictly.
   for (Eigen::Index pass = 0; pass < 20 * (n + 1); ++pass) {
     std::vector<Eigen::Index> free;
     for (Eigen::Index i = 0; i < n; ++i)

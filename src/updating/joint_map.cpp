@@ -12,20 +12,20 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-/// Whitened Jacobian without what the free scales explain.
+/// Whitened Jacobian without the part that free scales explain.
 MatrixXd whitened(const MatrixXd& jacobian, const MatrixXd& scales, const MatrixXd& factor) {
   MatrixXd a = linalg::lower_solve(factor, jacobian);
   if (scales.cols() == 0) return a;
   const MatrixXd s = linalg::lower_solve(factor, scales);
-  // Each row belongs to one shape at most, so the columns are nearly orthogonal; a QR takes the rest.
+  // Each row belongs to one shape at most, so the columns are nearly orthogonal. The QR makes them so exactly.
   const Eigen::ColPivHouseholderQR<MatrixXd> qr(s);
   const MatrixXd q = qr.householderQ() * MatrixXd::Identity(s.rows(), qr.rank());
   linalg::subtract_product(q, linalg::product(q, a, true), a);
   return a;
 }
 
-/// (A'A + I)^-1 b, its diagonal raised by a part of itself: by the matrix inversion lemma where A (m × n) has fewer rows than
-/// columns, so that the time grows with n alone.
+/// (A'A + I)^-1 b with a diagonal raised by `damping` times itself. If A (m × n) has fewer rows than columns, the matrix
+/// inversion lemma is used, so that the time grows with n only linearly.
 class DampedNormal {
  public:
   explicit DampedNormal(const MatrixXd& a) : a_(a), diagonal_(a.colwise().squaredNorm().transpose().array() + 1.0) {
@@ -53,7 +53,7 @@ class DampedNormal {
   MatrixXd normal_;    ///< A'A + I where it is the smaller
 };
 
-/// Components that no bound holds against the descent.
+/// Components that no bound keeps from moving along the descent direction.
 std::vector<int> free_components(const VectorXd& x, const VectorXd& gradient, const Box& box) {
   const std::vector<bool> rests = held(x, gradient, box, 1e-9);
   std::vector<int> free;
@@ -122,7 +122,7 @@ JointMap joint_map(const PredictionFunction& predict, const VectorXd& y, const M
       }
       damping = std::max(damping * 6.0, 1e-6);
     }
-    if (!accepted) {  // no descent left to rounding or to modes changing partners
+    if (!accepted) {  // no further descent: rounding, or modes that change partners
       map.status = {g_free.dot(newton) < 1.0, "no step lowers the cost"};
       return map;
     }

@@ -68,7 +68,7 @@ matching::Pairing followed_pairing(const UpdatingSettings& config, const matchin
     matching::ModePair& pair = pairing.pairs[i];
     pair.numerical = result.mode_after.at(i);
     if (pairing.mac.size() == 0) continue;
-    // By the same measure as before: close modes that have turned into each other count by their common subspace.
+    // Same measure as before the updating: close modes that have rotated into each other count by their common subspace.
     pair.mac = pairing.likeness(pair.numerical, pair.experimental);
     pair.clustered = pair.mac > pairing.mac(pair.numerical, pair.experimental);
   }

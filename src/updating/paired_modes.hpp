@@ -23,7 +23,7 @@ namespace twindeck::updating {
 [[nodiscard]] std::vector<FrequencyTarget> frequency_targets(const matching::Measured& measured,
                                                              const matching::Pairing& pairing);
 
-/// How prestress is found anew for parameter values; empty for a matrix model. Holds a reference to `loaded`.
+/// Computes the prestress for given parameter values; empty for a matrix model. Holds a reference to `loaded`.
 [[nodiscard]] Refresh prestress_refresh(const dynamics::LoadedModel& loaded);
 
 /// The same measured modes with the computed modes that the updating followed them to, and MAC where shapes were measured
@@ -33,8 +33,8 @@ namespace twindeck::updating {
                                                  const UpdatingResult& result, const dynamics::LoadedModel& after,
                                                  const dynamics::EigenModes& modes, const matching::Measured& measured);
 
-/// What the followed pairs are worth after the updating. Warns where shapes disagree; where they did before and no longer do,
-/// the updating has shown the pairs right.
+/// Quality of the followed pairs after the updating. Warns where shapes disagree. Shapes that disagreed before and agree now
+/// confirm the pairs.
 [[nodiscard]] matching::PairingAccount account_after(Reporter& reporter, const matching::Pairing& followed,
                                                      const dynamics::EigenModes& modes, const matching::Measured& measured);
 

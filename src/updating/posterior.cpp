@@ -16,8 +16,8 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-constexpr double flat_share = 0.5;  ///< [-] of the prior variance: what keeps more is known by its bounds, not by the rows
-constexpr double seen_from = 1.0;   ///< [standard deviations] of all rows together: what is less is noise
+constexpr double flat_share = 0.5;  ///< [-] of the prior variance; directions that keep more are flat
+constexpr double seen_from = 1.0;   ///< [standard deviations] of all rows together; smaller changes are noise
 
 bool alike(const VectorXd& a, const VectorXd& b) {
   if (a.norm() < seen_from || b.norm() < seen_from) return false;
@@ -52,8 +52,7 @@ Posterior posterior(const Linearised& at, const VectorXd& x, const Box& box, con
   out.degrees = std::max(0, static_cast<int>(at.residual.size() - std::ssize(free)) - at.scales);
   if (free.empty()) return out;
 
-  // In units of the prior deviations: C = (1 + (J D)'(J D))⁻¹, whose eigenvalues are the shares of the prior variance that
-  // stay.
+  // In units of the prior deviations: C = (1 + (J D)'(J D))⁻¹. Its eigenvalues are the remaining shares of the prior variance.
   const VectorXd unit = prior(free);
   const MatrixXd j = at.jacobian(Eigen::all, free) * unit.asDiagonal();
   const Eigen::SelfAdjointEigenSolver<MatrixXd> eig(MatrixXd(j.transpose() * j));

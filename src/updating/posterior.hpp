@@ -28,9 +28,9 @@ struct Posterior {
   int degrees = 0;                  ///< of freedom: rows, less free scales and free parameters; at least 0
   std::vector<FlatDirection> flat;  ///< directions whose variance the rows lower by less than half, flattest first
 
-  /// By how much the model and the rows differ more than the covariance says: sqrt(chi²/degrees), at least 1.
+  /// Factor between the differences of model and rows and their stated deviations: sqrt(chi²/degrees), at least 1.
   [[nodiscard]] double misfit() const;
-  /// Deviations of a standard normal variable above which chi² lies.
+  /// chi² as a standard normal variable [standard deviations].
   /// Reference: Wilson and Hilferty (1931), Proc. National Academy of Sciences 17, 684-688.
   [[nodiscard]] double chi_squared_score() const;
 };
@@ -39,8 +39,9 @@ struct Posterior {
 /// @param box    their bounds  @param scale (n_active) parameter = scale · x
 [[nodiscard]] Posterior posterior(const Linearised& at, const Eigen::VectorXd& x, const Box& box, const Eigen::VectorXd& scale);
 
-/// Sets of parameters that rows cannot tell apart: what one of a set does over half its range, another does as well (or undoes)
-/// to within one standard deviation of all rows together. A parameter that changes them by less than that is in no set.
+/// Sets of parameters that the rows cannot distinguish: the change of the rows by one parameter over half its range equals a
+/// multiple of the change by another, to within one standard deviation of all rows together. A parameter with a smaller change
+/// is in no set.
 /// @param shifts  [standard deviations] (n_rows × n_parameters) change of the rows over half the range of each parameter
 /// @return positions, each set in ascending order
 [[nodiscard]] std::vector<std::vector<int>> indistinct_sets(const Eigen::MatrixXd& shifts);

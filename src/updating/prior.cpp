@@ -8,11 +8,10 @@ namespace twindeck::updating {
 
 namespace {
 
-constexpr double least_error = 1e-3, most_error = 1.0;  ///< [-] between what a frequency is measured to and no model at all
+constexpr double least_error = 1e-3, most_error = 1.0;  ///< [-] of a frequency
 constexpr int grid_steps =
-    400;  ///< of ln s between them: 1.7 % of s each, which moves an estimate by less than its rounding in print
+    400;  ///< of ln s between them: steps of 1.7 % of s change an estimate by less than its printed rounding
 
-/// All rows but one.
 template <class Rows>
 Rows all_but(const Rows& rows, Eigen::Index row) {
   Rows out(rows.rows() - 1, rows.cols());

@@ -18,7 +18,6 @@ constexpr double ridge = 1e-8;              // on the linearised problem's norma
 
 using RowMajor = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 
-// Where a search stands between two rounds.
 struct Point {
   Eigen::VectorXd x, residual;
   Eigen::MatrixXd jacobian;
@@ -55,7 +54,7 @@ class Residuals : public ceres::CostFunction {
     return true;
   }
 
-  // Of the cost. Ceres asks for the Jacobian where it accepts a step, so that the gradient there is known.
+  // Gradient of the cost. Ceres asks for the Jacobian at each accepted step, so the gradient there is known.
   [[nodiscard]] Eigen::VectorXd gradient(const Eigen::VectorXd& x) const {
     if (last_x_.size() == x.size() && last_x_ == x) return last_gradient_;
     return evaluate(function_, num_residuals(), x).gradient();
@@ -66,13 +65,12 @@ class Residuals : public ceres::CostFunction {
   mutable Eigen::VectorXd last_x_, last_gradient_;
 };
 
-// A refused step of which the linearised problem expected less than the cost's rounding.
+// Whether a step was refused although the linearised problem expected a change below the rounding of the cost.
 bool is_lost_in_rounding(const ceres::IterationSummary& step) {
   if (!step.step_is_valid || step.relative_decrease == 0.0) return false;
   return std::abs(step.cost_change / step.relative_decrease) <= rounding_of_cost * step.cost;
 }
 
-// What a round goes by.
 struct Round {
   const Box& box;
   const BoundedOptions& options;
@@ -81,9 +79,9 @@ struct Round {
   const std::function<void(const AcceptedStep&)>& accepted;
 };
 
-// Reports accepted steps. Ends the round when a component meets a bound that it was not on, when rounding refuses a step, and
-// when the projected gradient of the components that may move is below its tolerance. Ceres' own test of the gradient is off:
-// it takes the length of x - P(x - g), which is never longer than the way to the bounds, however steep the cost is.
+// Reports accepted steps. Ends the round if a component meets a new bound, if rounding refuses a step, or if the projected
+// gradient of the free components is below its tolerance. Ceres' own gradient test is off: it uses the length of x - P(x - g),
+// which never exceeds the distance to the bounds, however steep the cost is.
 class RoundWatcher : public ceres::IterationCallback {
  public:
   RoundWatcher(const Eigen::VectorXd& x, const Residuals& residuals, const Round& round)
@@ -170,9 +168,9 @@ std::pair<int, int> run_round(const ResidualFunction& function, int n_residuals,
   return {watcher.accepted_steps, std::max(watcher.tried, 1)};
 }
 
-// Who stays on a bound during the next round: those that are on it and that the linearised problem leaves there. The sign of
-// the gradient alone releases too many: a component with a small inward gradient whose bounded Gauss-Newton step keeps it in
-// place spoils each projected dogleg step, and the trust region collapses.
+// Components that stay on a bound during the next round: those on a bound that the linearised problem also leaves there. The
+// sign of the gradient alone would release too many. A component with a small inward gradient may stay in place in the bounded
+// Gauss-Newton step. If it is free, it spoils each projected dogleg step and the trust region collapses.
 std::vector<bool> stay_on_bound(const Point& point, const Box& box, double tolerance) {
   const std::vector<int> now = on_bound(point.x, box, tolerance);
   const Eigen::VectorXd step = bounded_gauss_newton_step(point.residual, point.jacobian, point.x, box, ridge);
@@ -189,9 +187,9 @@ void snap_to_bounds(Eigen::VectorXd& x, const std::vector<bool>& is_held, const 
   }
 }
 
-// The next point where the cost cannot judge a step any more: what the bounded Gauss-Newton step would gain is less than the
-// rounding of the cost, so that a trust region would collapse on noise. There the projected gradient judges: the step counts
-// if it at least halves it. Empty where the cost still judges, or where the step does not help.
+// The next point if the bounded Gauss-Newton step would gain less than the rounding of the cost, where a trust region would
+// collapse on noise. The step is accepted if it at least halves the projected gradient. Empty if the cost can still judge the
+// step, or if the step does not help.
 std::optional<Point> step_below_rounding(const ResidualFunction& function, const Point& from, double projected, const Box& box,
                                          double bound_tolerance) {
   const Eigen::VectorXd step = bounded_gauss_newton_step(from.residual, from.jacobian, from.x, box, ridge);
@@ -208,7 +206,7 @@ BoundedResult run_rounds(const ResidualFunction& function, int n_residuals, cons
                          const BoundedOptions& options, const std::function<void(const AcceptedStep&)>& accepted) {
   BoundedResult result;
   result.x = start.cwiseMax(box.lower).cwiseMin(box.upper);
-  bool predict = true;  // who stays is predicted; where a round gets nowhere with that, the sign of the gradient decides
+  bool predict = true;  // false after a round without progress: the sign of the gradient decides
   int last_accepted = 1;
   for (bool first = true;; first = false) {
     const Point point = evaluate(function, n_residuals, result.x);

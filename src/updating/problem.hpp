@@ -18,7 +18,8 @@ struct BoundedOptions {
   int max_iterations = 100;          ///< accepted and refused steps together, over all rounds
   double gradient_tolerance = 1e-6;  ///< absolute norm of the projected gradient at which the search ends
   double bound_tolerance = 1e-6;     ///< see `on_bound`
-  double residual_unit = 1.0;        ///< residuals count in it during the search, whose small constants then fit any residuals
+  double residual_unit = 1.0;  ///< residuals are divided by it during the search, so that the small constants of the search
+                               ///< suit residuals of any size
 };
 
 /// One accepted step (number 0: the starting point).
@@ -44,9 +45,9 @@ struct BoundedResult {
 /// then collapses before the optimum is reached. The search therefore runs in rounds. Components that stay on their bound are
 /// constants of the round (SubsetManifold); the bounded linearised problem predicts them (bounded_quadratic.hpp). A round ends
 /// as soon as a component meets a bound. The next round predicts the constants anew and releases those whose multiplier will
-/// change sign. The norm of the projected gradient alone decides convergence, not the verdict of Ceres. The cost never rises
-/// from one accepted step to the next, but for its rounding: where a step would gain less than that, the projected gradient
-/// judges it, so that the search ends at the same point on every processor.
+/// change sign. The norm of the projected gradient alone decides convergence, not the verdict of Ceres. Accepted steps never
+/// raise the cost by more than its rounding. A step that would gain less than the rounding is judged by the projected gradient,
+/// so that the search ends at the same point on every processor.
 /// @param accepted  called for each accepted step, may be empty
 [[nodiscard]] BoundedResult minimise_on_box(const ResidualFunction& function, int n_residuals, const Eigen::VectorXd& start,
                                             const Box& box, const BoundedOptions& options,

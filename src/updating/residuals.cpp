@@ -122,7 +122,7 @@ void ModalResiduals::differentiate_weighted(Evaluation& evaluation, const Eigen:
   ComputedRows computed{
       evaluation.frequency_Hz, at_channels(rows, modes_.shapes), evaluation.span, active * definition_.scale.asDiagonal(), {}};
   if (rows.has_shapes()) {
-    // All parameters share the adjoint solves: to leave some out would save next to nothing.
+    // The adjoint solves serve all parameters, so leaving some out would save almost nothing.
     const std::vector<Eigen::MatrixXd> all =
         sensitivity::channel_shape_derivatives(*system_, definition_.theta(evaluation.x), modes_, rows.measured().channels);
     for (std::size_t j = 0; j < definition_.active.size(); ++j)

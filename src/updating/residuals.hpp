@@ -29,7 +29,7 @@ struct ResidualDefinition {
   Eigen::VectorXd scale;    ///< (n_active) parameter = scale · x: the initial value's size, or the range where it is 0
   int n_modes = 0;          ///< modes solved for
   std::shared_ptr<const matching::ModeFollower> follower;
-  std::shared_ptr<const StartModes> start;       ///< null: solved for where they are needed
+  std::shared_ptr<const StartModes> start;       ///< null: the modes are computed where needed
   std::shared_ptr<const WeightedRows> weighted;  ///< null: relative frequencies, Eq. (5)
   Prior prior;                                   ///< of the parameters, whose rows come behind the others; none by default
 
@@ -40,27 +40,27 @@ struct ResidualDefinition {
   [[nodiscard]] int n_residuals() const {
     return (weighted ? weighted->size() : static_cast<int>(targets.size())) + static_cast<int>(prior.mean.size());
   }
-  /// Size of residuals that mean nothing: far below any measurement error if they are relative frequencies; one standard
-  /// deviation of all rows together if they are weighed.
+  /// Residuals below this size have no meaning. For relative frequencies it is far below any measurement error; for weighed
+  /// rows it is one standard deviation of all rows together.
   [[nodiscard]] double negligible_residual() const { return weighted ? 1.0 : 1e-4; }
-  /// Unit in which a search that begins with this Jacobian counts residuals: 1 for relative frequencies, which have no unit of
-  /// their own. Weighed rows grow without limit as their standard deviations shrink; in units of the Jacobian's norm the search
-  /// is the same for any factor on all deviations.
+  /// Unit of the residuals in a search that begins with this Jacobian. Relative frequencies have the unit 1. Weighed rows grow
+  /// as their standard deviations shrink, so their unit is the norm of the Jacobian: a common factor on all deviations then
+  /// does not change the search.
   [[nodiscard]] double residual_unit(const Eigen::MatrixXd& jacobian) const;
 };
 
 /// Residuals at one point.
 struct Evaluation {
-  bool valid = false;            ///< false: modes not found here (mechanism, lost mode); the step must be refused
-  Eigen::VectorXd x;             ///< (n_active)
-  Eigen::VectorXd residual;      ///< (n_residuals) (f_N - f_X)/f_X [-], 0 for a target that is not fitted; or weighed rows;
-                                 ///< then those of the prior
-  Eigen::MatrixXd jacobian;      ///< (n_residuals × n_active) per normalised parameter; empty until asked for
-  Eigen::VectorXd frequency_Hz;  ///< (n_targets) of the followed modes
-  std::vector<int> mode;         ///< (n_targets) positions of the followed modes
-  Eigen::VectorXd mac;           ///< (n_targets) with the reference modes
-  Eigen::VectorXd predicted;     ///< (n_residuals) of weighed rows, see WeightedEvaluation; else empty
-  int scales = 0;                ///< likewise
+  bool valid = false;        ///< false: modes not found here (mechanism, lost mode); the step must be refused
+  Eigen::VectorXd x;         ///< (n_active)
+  Eigen::VectorXd residual;  ///< (n_residuals) (f_N - f_X)/f_X [-], 0 for a target that is not fitted; or weighed rows; last
+                             ///< the rows of the prior
+  Eigen::MatrixXd jacobian;  ///< (n_residuals × n_active) per normalised parameter; empty until asked for
+  Eigen::VectorXd frequency_Hz;        ///< (n_targets) of the followed modes
+  std::vector<int> mode;               ///< (n_targets) positions of the followed modes
+  Eigen::VectorXd mac;                 ///< (n_targets) with the reference modes
+  Eigen::VectorXd predicted;           ///< (n_residuals) of weighed rows, see WeightedEvaluation; else empty
+  int scales = 0;                      ///< likewise
   std::vector<std::vector<int>> span;  ///< (n_targets) positions of the modes that span each shape; empty without shapes
   [[nodiscard]] double cost() const { return 0.5 * residual.squaredNorm(); }
   [[nodiscard]] Eigen::VectorXd gradient() const { return jacobian.transpose() * residual; }

@@ -31,13 +31,14 @@ SharedSystem refreshed(const Search& search, const Eigen::VectorXd& x) {
   return std::make_shared<const fe::ParametricSystem>(search.refresh(search.definition.theta(x)));
 }
 
-// Of a search whose gradient counts beside `reference` and that begins with `jacobian`.
+// Options of a search that begins with `jacobian` and measures its gradient relative to `reference`.
 BoundedOptions bounded_options(const Search& search, double reference, const Eigen::MatrixXd& jacobian) {
   return {search.options.trust_radius, search.options.max_iterations, search.options.optimality_tolerance * reference,
           search.options.bound_tolerance, search.definition.residual_unit(jacobian)};
 }
 
-// Bounded solves on the full system at frozen prestress, the prestress found anew in between, until the parameters stay.
+// Bounded solves on the full system at frozen prestress. The prestress is computed anew between them, until no parameter
+// changes by more than the tolerance.
 void search_full(const Search& search, Eigen::VectorXd x, SharedSystem system, double reference, int start, SearchEnd& out) {
   const int n_residuals = search.definition.n_residuals();
   StartResult& result = out.result;
@@ -82,9 +83,9 @@ Box box_about(const Eigen::VectorXd& x, const Box& box, double reach) {
   return {box.lower.cwiseMax((x.array() - reach).matrix()), box.upper.cwiseMin((x.array() + reach).matrix())};
 }
 
-// The optimum of the reduced system inside a box, corrected to agree with the full one at `full`. The prestress follows once:
-// it is found anew at a first optimum, so that the full system finds little of its change left at the second. A full solution
-// costs several times what the prestress does. Empty if the reduced system lacks a mode.
+// The optimum of the reduced system inside a box, corrected to agree with the full system at `full`. The prestress is computed
+// anew once, at a first optimum, so that it hardly changes at the second. A full solution costs several times a new prestress.
+// Empty if the reduced system lacks a mode.
 std::optional<Eigen::VectorXd> reduced_optimum(const Search& search, const SharedSystem& system, const Evaluation& full,
                                                const Box& box, const BoundedOptions& options) {
   const int n_residuals = search.definition.n_residuals();
@@ -97,7 +98,7 @@ std::optional<Eigen::VectorXd> reduced_optimum(const Search& search, const Share
   return minimise_on_box(corrected.of(followed), n_residuals, first, box, options, {}).x;
 }
 
-// The search on the corrected reduced system. Leaves x at the best point so far, and says whether it has converged there.
+// Search on the corrected reduced system. Leaves x at the best point so far. @return whether it has converged there
 bool search_reduced(const Search& search, Eigen::VectorXd& x, double& reference, int start, SearchEnd& out) {
   StartResult& result = out.result;
   Eigen::VectorXd next = x;
@@ -109,7 +110,7 @@ bool search_reduced(const Search& search, Eigen::VectorXd& x, double& reference,
     const Evaluation& full = residuals.at(next, true);
     result.solves += residuals.solves();
     result.outer = outer + 1;
-    // The prestress follows the parameters, so that near the end the cost may rise by as much as that matters.
+    // The prestress changes with the parameters, so that the cost may rise slightly near the end.
     const bool better = full.valid && full.cost() <= cost * (1.0 + 1e-3) + 1e-12;
     if (!better) {
       if (outer == 0) return false;

@@ -9,7 +9,8 @@
 #include "updating/surrogate.hpp"
 #include "updating/updating.hpp"
 
-/// One search of an update, from one starting point. `update` runs several in parallel.
+/// One search of an update, from one starting point. `update` runs several in parallel. Normalised parameters x, (n_active)
+/// [-], are the parameters over `ResidualDefinition::scale`. None of the functions checks its input; `update` does.
 namespace twindeck::updating {
 
 /// The search in normalised parameters, common to all starts.
@@ -29,15 +30,15 @@ struct SearchEnd {
   std::vector<IterationRecord> history;
 };
 
-/// @param points (n_active × n_points) where snapshots are taken
+/// @param points  (n_active × n_points) normalised parameters at which snapshots are taken
 [[nodiscard]] Surrogate make_surrogate(const Search& search, const Eigen::MatrixXd& points);
 
-/// The whole search from `first`. With a surrogate, the full system is solved once at each point. Its value and Jacobian
-/// correct the reduced system, on which the search continues. Where that ends the prestress is found anew, and the search on
-/// the reduced system continues once more to the next point. The search ends when the projected gradient of the full system,
-/// with the prestress of the same point, is below the tolerance. Without a surrogate, or if that search does not converge,
-/// bounded solves run on the full system at frozen prestress. The prestress is computed anew between them, until no parameter
-/// changes by more than the tolerance.
+/// The whole search from `first`, (n_active). With a surrogate, the full system is solved once at each point. Its value and
+/// Jacobian correct the reduced system, on which the search continues. At its end the prestress is computed anew, and the
+/// search on the reduced system continues once more to the next point. The search ends when the projected gradient of the full
+/// system, with the prestress of the same point, is below the tolerance. Without a surrogate, or if that search does not
+/// converge, bounded solves run on the full system at frozen prestress. The prestress is computed anew between them, until no
+/// parameter changes by more than the tolerance.
 [[nodiscard]] SearchEnd run_start(const Search& search, const Eigen::VectorXd& first, int start);
 
 /// Residuals at normalised parameters x, with the prestress of x.

@@ -37,7 +37,6 @@ Index stay_position(const fe::Model& model, const std::string& name) {
                    "name a stay of the model");
 }
 
-/// Rows one after another.
 struct Rows {
   VectorXd row;
   Index filled = 0;
@@ -129,8 +128,8 @@ namespace {
 using Eigen::MatrixXd;
 
 constexpr double kRangeStep =
-    1e-5;                        ///< [-] part of a range: differences of matrices keep ten digits, and geometry is linear in it
-constexpr int kModesBeyond = 3;  ///< modes solved beyond the last known one, so that the solver has converged on that
+    1e-5;  ///< [-] of a range: a difference of matrices keeps ten digits, and geometry is linear over such a step
+constexpr int kModesBeyond = 3;  ///< modes solved for above the last known one, so that the known ones converge
 
 VectorXd quadratic_forms(const linalg::SparseMatrix& lower, const MatrixXd& shapes) {
   return shapes.cwiseProduct(linalg::symmetric_product(lower, shapes)).colwise().sum();
@@ -138,7 +137,6 @@ VectorXd quadratic_forms(const linalg::SparseMatrix& lower, const MatrixXd& shap
 
 }  // namespace
 
-/// One structure at one set of sizes.
 struct StructureFit::Solved {
   fe::PrestressState state;
   VectorXd eigenvalue;  ///< of the known modes
@@ -220,7 +218,7 @@ bool StructureFit::needs_statics() const {
 StructureAnswer StructureFit::change(const VectorXd& part, Index size, std::size_t s) const {
   const Solved& at = *solved_[s];
   const StructureData& data = structures_[s].data;
-  // Backwards in the upper half, so that the range is never left.
+  // Backward difference in the upper half, so that the step stays in the range.
   const double h = part[size] > 0.5 ? -kRangeStep : kRangeStep;
   VectorXd moved = part;
   moved[size] += h;
@@ -306,12 +304,12 @@ FitSearch search_fit(StructureFit& fit, VectorXd part, int max_iterations,
       if (lower) out.part = next;
       damping = lower ? std::max(1e-9, damping / 5.0) : damping * 8.0;
     }
-    // No lower cost: rounding is reached, or modes change places here.
+    // No step lowers the cost: rounding is reached, or modes change places.
     out.settled = !lower || cost - 0.5 * r_next.squaredNorm() < settled_change * cost;
     if (lower) r = r_next;
     if (out.settled) break;
   }
-  // The last residual may be that of a refused step.
+  // The last computed residual may be that of a refused step.
   static_cast<void>(fit.residual(out.part, r));
   return out;
 }

@@ -36,10 +36,10 @@ struct KnownMass {
   double length_m = 1.0, mass_kg_m = 0.0, std_kg_m = 1.0;
 };
 
-/// The vertical displacement under dead load, at the conditions of shape finding (the stays' anchors), that is tolerated.
+/// Largest allowed vertical displacement under dead load at the stays' anchors, where shape finding sets its conditions.
 struct DisplacementLimit {
   double limit_m = 0.0;
-  double std_m = 1.0;  ///< a displacement that is so much above the limit counts as one standard deviation
+  double std_m = 1.0;  ///< displacement above the limit that counts as one standard deviation
 };
 
 struct StructureData {
@@ -90,12 +90,11 @@ struct FittedStructure {
 struct FitObjective {
   std::array<double, n_data_kinds> weight = {1.0, 1.0, 1.0, 1.0};  ///< [-] by DataKind; 0: shown, not fitted
   double unit = 0.01;                                              ///< [-]
-  double range_costs = 0.0;                                        ///< a size that travels its whole range counts as much as
-                                                                   ///< this relative error of one frequency
-  Eigen::VectorXd start;                                           ///< (n_sizes) where the weak pull leads
+  double range_costs = 0.0;  ///< the full range of a size costs as much as this relative error of one frequency
+  Eigen::VectorXd start;     ///< (n_sizes) values that a weak penalty pulls the sizes towards
 };
 
-/// Rows of all structures, one structure after another, then those of the pull to the start.
+/// Rows of all structures, one structure after another, then the rows of the penalty that pulls the sizes to their start.
 class StructureFit {
  public:
   /// The structures must outlive the fit.
@@ -104,18 +103,18 @@ class StructureFit {
   /// @param part (n_sizes) @param r (n_rows) @return false: a structure has no modes or no equilibrium there
   [[nodiscard]] bool residual(const Eigen::VectorXd& part, Eigen::VectorXd& r);
   /// Derivative of the last residual. (n_rows × n_sizes) Eigenvalues: phi' (dK - lambda dM) phi with cable forces frozen. Cable
-  /// forces, masses and displacements: differences of the static answer. dK, dM and those are forward differences over 1e-5 of
-  /// a range, backward in its upper half.
+  /// forces, masses and displacements: differences of the static answer. dK, dM and the static answer are differenced forward
+  /// over 1e-5 of a range, backward in its upper half.
   [[nodiscard]] Eigen::MatrixXd jacobian(const Eigen::VectorXd& part) const;
 
   /// Answers of the structures at the last residual, frequencies corrected by `ratio`.
   [[nodiscard]] const std::vector<StructureAnswer>& answers() const { return answers_; }
   /// Frequencies of all structures, one after another. [Hz] (n_frequencies)
   [[nodiscard]] Eigen::VectorXd frequencies() const;
-  /// Part of the cost of each kind of data at the last residual; the last entry is that of the pull to the start.
+  /// Part of the cost of each kind of data at the last residual; the last entry is that of the penalty.
   [[nodiscard]] std::array<double, n_data_kinds + 1> costs() const;
 
-  Eigen::VectorXd ratio;  ///< (n_frequencies) what another mesh makes of this one's frequencies; 1 at first
+  Eigen::VectorXd ratio;  ///< (n_frequencies) correction: frequency on another mesh over that on this mesh; 1 at first
 
  private:
   struct Solved;

@@ -151,7 +151,7 @@ MatrixXd ReducedSystem::shape_derivatives(const Eigen::VectorXd& theta, int para
 MatrixXd orthonormal_basis(const MatrixXd& vectors, const linalg::SparseMatrix& mass_lower, double loss) {
   const linalg::SparseMatrix mass = linalg::without_zeros(mass_lower);
   MatrixXd basis = vectors;
-  for (int pass = 0; pass < 2; ++pass) {  // the second one takes away what rounding left of the first
+  for (int pass = 0; pass < 2; ++pass) {  // the second pass removes the rounding of the first
     MatrixXd gram = linalg::product(basis, linalg::symmetric_product(mass, basis), true);
     gram = 0.5 * (gram + gram.transpose()).eval();
     const Eigen::SelfAdjointEigenSolver<MatrixXd> eig(gram);
@@ -168,18 +168,18 @@ namespace {
 
 using Eigen::VectorXd;
 
-/// Directions that make less than this part of the largest snapshot are left out of the basis; what that costs in frequency
-/// goes with its square, and the correction takes it out where it matters.
+/// Directions that are smaller than this part of the largest snapshot are left out of the basis. The resulting error of a
+/// frequency is proportional to the square of this number, and the correction by the full system removes it at x_k.
 constexpr double kLoss = 1e-4;
 
-/// K^-1 (dK - lambda dM) phi per normalised parameter, for the modes up to the highest that is compared.
+/// K^-1 (dK - lambda dM) phi per normalised parameter, for the modes up to the highest compared one.
 MatrixXd static_answers(const fe::ParametricSystem& system, const ResidualDefinition& definition, const VectorXd& theta,
                         const dynamics::EigenModes& modes) {
   Index count = 0;
   for (const FrequencyTarget& target : definition.targets) count = std::max<Index>(count, target.reference_mode + 1);
   count = std::min(count, modes.shapes.cols());
   linalg::Cholesky factor;
-  if (!factor.factorize(system.stiffness(theta)).converged) return MatrixXd(system.size(), 0);  // free as a rigid body
+  if (!factor.factorize(system.stiffness(theta)).converged) return MatrixXd(system.size(), 0);  // a free structure
   const MatrixXd phi = modes.shapes.leftCols(count);
   MatrixXd answers(system.size(), count * std::ssize(definition.active));
   for (std::size_t j = 0; j < definition.active.size(); ++j) {
@@ -240,7 +240,7 @@ bool CorrectedResiduals::operator()(const VectorXd& x, VectorXd& residual, Matri
 struct CorrectedResiduals::Modes {
   const VectorXd& lambda;  // of all reduced modes
   const MatrixXd& z;
-  Index kept;                        // of these, those that the full system has too
+  Index kept;                        // number of modes, from the lowest, that the full system has too
   const std::vector<Index>& mode;    // (n_targets) positions
   const std::vector<int>& position;  // (n_reference)
 };

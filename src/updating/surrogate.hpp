@@ -58,9 +58,9 @@ struct Surrogate {
   std::shared_ptr<const ReducedSystem> initial;
 };
 
-/// A basis for the modes of a system over the whole box: the modes at the given points, and for the targets' modes at the first
-/// point the static answer K^-1 (dK - lambda dM) phi to each parameter.
-/// @param points (n_active × n_points) normalised parameters; solved side by side
+/// A basis for the modes of a system over the whole box: the modes at the given points, and static responses K^-1 (dK - lambda
+/// dM) phi of the targets' modes to each parameter at the first point.
+/// @param points (n_active × n_points) normalised parameters; solved in parallel
 /// @return null if the modes of the first point were not found
 [[nodiscard]] std::shared_ptr<const Eigen::MatrixXd> modal_basis(const std::shared_ptr<const fe::ParametricSystem>& system,
                                                                  const ResidualDefinition& definition,
@@ -77,7 +77,7 @@ class CorrectedResiduals {
                      const Evaluation& full);
   /// Whether the reduced system has the modes at x_k.
   [[nodiscard]] bool valid() const { return valid_; }
-  /// The same corrections of another reduced system, which must outlive the result.
+  /// Applies the same corrections to another reduced system, which must outlive the result.
   [[nodiscard]] CorrectedResiduals of(const ReducedSystem& reduced) const {
     CorrectedResiduals other = *this;
     other.reduced_ = &reduced;

@@ -65,7 +65,7 @@ ResidualDefinition define_residuals(const fe::ParametricSystem& system, const st
   return definition;
 }
 
-// (n_active) of a bound or the initial value, in normalised parameters.
+// (n_active) normalised bounds or initial values.
 Eigen::VectorXd normalised(const fe::ParametricSystem& system, const ResidualDefinition& definition,
                            double fe::Parameter::*member) {
   Eigen::VectorXd x(definition.scale.size());
@@ -97,7 +97,7 @@ int best_start(const std::vector<SearchEnd>& ends) {
   return static_cast<int>(std::min_element(ends.begin(), ends.end(), better) - ends.begin());
 }
 
-// The start to publish, where it has walked to, and which starts share an optimum.
+// Chooses the start to publish and walks along its valley. @return the optimum of each start
 std::vector<int> choose(const Search& search, std::vector<SearchEnd>& ends, const Eigen::VectorXd& x0, UpdatingResult& result) {
   std::vector<EndPoint> end_points;
   for (const SearchEnd& end : ends) end_points.push_back(end.end);
@@ -139,7 +139,7 @@ void collect(const Search& search, std::vector<SearchEnd>& ends, const Eigen::Ve
                            ends.size(), result.best, best.result.relative_projected_gradient, best.result.message)};
 }
 
-// Residuals in standard deviations instead of relative frequencies, and what they are at the start.
+// Sets residuals in standard deviations instead of relative frequencies, and records them at the start.
 void weigh(Search& search, const MeasuredRows& rows, const Eigen::VectorXd& x0, UpdatingResult& result) {
   ResidualDefinition& definition = search.definition;
   Eigen::VectorXd measured_Hz(static_cast<Eigen::Index>(definition.targets.size()));
@@ -156,7 +156,7 @@ void weigh(Search& search, const MeasuredRows& rows, const Eigen::VectorXd& x0, 
   result.at_start = {start.residual, start.jacobian, start.predicted, start.scales};
 }
 
-// The prior of the ranges; where frequencies are relative, with the model's error that the start shows.
+// Sets the prior of the ranges. For relative frequencies it estimates the model error from the residual at the start.
 void hold_to_ranges(Search& search, const Eigen::VectorXd& x0, UpdatingResult& result) {
   Evaluation start;
   if (!search.definition.weighted) start = evaluate_at_start(search, x0);
@@ -182,7 +182,7 @@ UpdatingResult update(const fe::ParametricSystem& start, const Refresh& refresh,
   search.box = {normalised(start, definition, &fe::Parameter::lower), normalised(start, definition, &fe::Parameter::upper)};
   const Eigen::VectorXd x0 = normalised(start, definition, &fe::Parameter::initial);
 
-  // The start model's modes: what all later modes are followed from.
+  // Modes of the start model; all later modes are followed from them.
   UpdatingResult result;
   result.scale = definition.scale;
   result.box = search.box;
@@ -190,7 +190,7 @@ UpdatingResult update(const fe::ParametricSystem& start, const Refresh& refresh,
   dynamics::EigenModes reference = solver.solve(definition.initial, definition.n_modes);
   const auto found = static_cast<int>(reference.frequency_Hz.size());
   if (!reference.status.converged && found > highest_reference(targets) && found < definition.n_modes) {
-    definition.n_modes = found;  // a small structure with fewer modes than asked for; the targets' are among them
+    definition.n_modes = found;  // a small structure has fewer modes than asked for; they include those of the targets
     reference = solver.solve(definition.initial, found);
   }
   if (!reference.status.converged) {

@@ -61,7 +61,7 @@ struct StartResult {
 
 /// The best start's problem solved again by a smooth map of the bounds (problem.hpp), at the prestress of its end.
 struct SmoothCheck {
-  Eigen::VectorXd theta;  ///< (n_active) in the parameters' units; empty where it could not be made
+  Eigen::VectorXd theta;  ///< (n_active) in the parameters' units; empty if the check could not be made
   double cost = 0.0;
   double largest_difference = 0.0;  ///< from the bounded search, as a fraction of the range
   int iterations = 0;
@@ -89,16 +89,16 @@ struct Linearised {
   Eigen::VectorXd residual;   ///< (n_residuals); empty where the modes were not found
   Eigen::MatrixXd jacobian;   ///< (n_residuals × n_active) per normalised parameter
   Eigen::VectorXd predicted;  ///< (n_residuals) of weighed rows, in their units; else empty
-  int scales = 0;             ///< free scales of weighed shapes
+  int scales = 0;             ///< number of free scales of weighed shapes
 };
 
 struct UpdatingResult {
   Eigen::VectorXd theta;  ///< (n_parameters) all parameters, the inactive at their initial values
   std::vector<StartResult> starts;
-  int best = 0;                                             ///< start whose end is published
-  std::vector<int> optima;                                  ///< starts that represent distinct optima, the published one first
-  Eigen::MatrixXd flat;                                     ///< (n_active × k) what the data don't see (valley_walk.hpp)
-  std::vector<int> on_bound;                                ///< (n_active) -1 lower, +1 upper, 0 inside
+  int best = 0;               ///< start whose end is published
+  std::vector<int> optima;    ///< starts that represent distinct optima, the published one first
+  Eigen::MatrixXd flat;       ///< (n_active × k) directions that the data do not determine (valley_walk.hpp)
+  std::vector<int> on_bound;  ///< (n_active) -1 lower, +1 upper, 0 inside
   Eigen::VectorXd frequency_before_Hz, frequency_after_Hz;  ///< (n_targets) of the followed modes
   std::vector<int> mode_after;                              ///< (n_targets) positions
   Eigen::VectorXd followed_mac;                             ///< (n_targets) MAC of the followed mode with the start model's

@@ -13,7 +13,7 @@ namespace twindeck::updating {
 struct UpdatingSettings {
   std::string parameters_from = "list";   ///< "list" | "s5_sensitivity"
   std::vector<std::string> parameters;    ///< empty: all that have a range
-  bool beside_selection = false;          ///< the same update of the parameters that s5_sensitivity selects, beside the list's
+  bool beside_selection = false;          ///< a second update, of the parameters that s5_sensitivity selects
   std::vector<std::string> pairs;         ///< "7X-8N", where no shape was measured; empty: by order
   std::vector<std::string> common_pairs;  ///< experimental modes of the second mean; empty: none
   std::string condition;                  ///< of the measured features
@@ -33,7 +33,7 @@ struct UpdatingSettings {
   std::string weights = "automatic";                   ///< "automatic" | "relative" | "covariance"
   double frequency_model_error = 0.0;                  ///< [-] of the frequency
   double shape_model_error = 0.0;                      ///< [-] of the shape's largest component
-  std::string published_values;                        ///< file with somebody else's result: the cost of its parameters is told
+  std::string published_values;  ///< file with the result of another updating; the cost of its parameters is reported
 
   [[nodiscard]] bool weighs_shapes() const;
   /// Whether rows are weighed by their covariance; false: relative frequencies, Eq. (5).

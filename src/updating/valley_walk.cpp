@@ -14,16 +14,16 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-constexpr double cost_left = 1e-6;     // [-] ends of one optimum differ by 1e-8 at a tolerance of 1e-6; a hundredfold margin
-constexpr double equally_near = 1e-6;  // [ranges] as `bound_tolerance`: nobody reads parameters closer
-constexpr double least_ridge = 1e-9;   // [-] of the ridge towards the wanted point, whose place it moves by as little
+constexpr double cost_left = 1e-6;     // [-] difference of equal costs; ends of one optimum differ by 1e-8
+constexpr double equally_near = 1e-6;  // [ranges] as `bound_tolerance`: nobody reads parameters more closely
+constexpr double least_ridge = 1e-9;   // [-] of the largest singular value; the ridge shifts the point by as little
 
 double largest_singular_value(const MatrixXd& per_range) {
   if (per_range.size() == 0) return 0.0;
   return Eigen::JacobiSVD<MatrixXd>(per_range).singularValues()(0);
 }
 
-/// Components that no multiplier holds on a bound: a multiplier below the search's tolerance is rounding.
+/// Components that no multiplier holds on a bound. A multiplier below the search's tolerance counts as zero.
 std::vector<Index> movable(const VectorXd& gradient, const MatrixXd& per_range, const VectorXd& x, const Box& box,
                            const Sight& sight) {
   const double rounding = sight.optimality_tolerance * gradient_reference(gradient, per_range, sight.negligible);
@@ -113,15 +113,15 @@ int preferred_end(const std::vector<EndPoint>& ends, const std::vector<int>& opt
 
 namespace {
 
-constexpr int most_walks = 20;           // a bent valley takes one more for each digit or two
-constexpr double worth_a_walk = 1e-5;    // [ranges] the point of a linearised valley is known to 1e-6 of them
-constexpr double shortest_share = 0.05;  // [-] of a step: where less is wanted the valley bends too much to be one
+constexpr int most_walks = 20;           // a curved valley needs one more walk for each digit or two
+constexpr double worth_a_walk = 1e-5;    // [ranges] shortest walk; the end of a linearised valley is known to 1e-6
+constexpr double shortest_share = 0.05;  // [-] of a step; if the step must be cut further, the valley is too curved
 
-constexpr double probe = 0.1;         // [ranges] far beyond a search's tolerance, and inside a valley that bends
-constexpr double least_probe = 0.01;  // [ranges] a direction with less way inside the box is the bounds' matter
-constexpr double stays_away = 0.5;    // [-] of the probe
+constexpr double probe = 0.1;  // [ranges] length of a probe: far above a search's tolerance, and still inside a curved valley
+constexpr double least_probe = 0.01;  // [ranges] shortest probe; with less room the bounds limit a direction
+constexpr double stays_away = 0.5;    // [-] part of the probe that the end must stay away from the start
 
-// The longer way of the two from x along a direction inside the box, in units of the ranges and at most a probe; with its sign.
+// Signed distance from x along a direction to the box, on the side with more room, in ranges and at most `probe`.
 double way_along(const Eigen::VectorXd& direction, const Eigen::VectorXd& x, const Box& box) {
   const Eigen::ArrayXd range = box.upper - box.lower;
   double up = probe, down = probe;
@@ -135,7 +135,7 @@ double way_along(const Eigen::VectorXd& direction, const Eigen::VectorXd& x, con
   return up >= down ? up : -down;
 }
 
-// The search that went on, as one: its records follow those of the first.
+// Joins a search and its continuation; the records of the continuation follow those of the first.
 SearchEnd joined(const SearchEnd& first, SearchEnd next) {
   for (IterationRecord& record : next.history) record.outer += first.result.outer;
   next.history.insert(next.history.begin(), first.history.begin(), first.history.end());

@@ -10,10 +10,10 @@
 /// The way along a valley of equal cost to its point nearest to given values.
 namespace twindeck::updating {
 
-// Valleys of a cost: directions in which parameters can move while no residual changes. A search ends anywhere in a valley,
-// where its start and its rounding lead it. The data do not say which of its points is right.
+// Valleys of a cost: directions in which parameters can move while no residual changes. Where a search ends in a valley depends
+// on its start and on rounding. The data do not say which point of the valley is right.
 
-/// From which change on a search sees a direction.
+/// How small a change of the residuals a search can detect.
 struct Sight {
   double negligible = 1e-4;            ///< [units of the residuals] see `gradient_reference`
   double optimality_tolerance = 1e-6;  ///< of the search
@@ -42,27 +42,27 @@ struct Sight {
 /// Distance of two points, in units of the ranges.
 [[nodiscard]] double distance(const Eigen::VectorXd& a, const Eigen::VectorXd& b, const Box& box);
 
-/// Whether two ends cost the same as far as a search knows: their difference is what its tolerance leaves, or means nothing.
+/// Whether two ends cost the same to a search: their costs differ by no more than its tolerance, or negligibly.
 /// @param negligible  [units of the residuals]
 [[nodiscard]] bool equal_cost(double a, double b, double negligible);
 
-/// The end to publish of several: the cheapest; among ends of equal cost the one nearest to `wanted`, the earlier start where
-/// two are as near. Of one optimum without a flat direction it is still the cheapest.
+/// The end to publish. It is the cheapest one. Among ends of equal cost it is the one nearest to `wanted`, and among equally
+/// near ones the earlier start. For one optimum without a flat direction the cheapest end is kept.
 /// @param optimum  see `distinct_optima`  @param cheapest  a converged end
 [[nodiscard]] int preferred_end(const std::vector<EndPoint>& ends, const std::vector<int>& optimum, int cheapest,
                                 const Eigen::VectorXd& wanted, const Box& box, const Sight& sight);
 
 [[nodiscard]] Sight sight_of(const Search& search);
 
-/// Continues an ended search along its valley to the point nearest to `wanted`: a step of the linearised valley, and a search
-/// from there back to its floor, in turn, until the point rests. Each walk counts only if it ends nearer and costs no more. An
-/// end without a flat direction stays as it is.
+/// Continues an ended search along its valley to the point nearest to `wanted`: a step along the linearised valley and a search
+/// from there alternate, until the point stays. A walk is accepted only if it ends nearer and costs no more. An end without a
+/// flat direction stays as it is.
 /// @param from  converged  @param wanted (n_active) normalised  @param start  its number in the history
 [[nodiscard]] SearchEnd walk_towards(const Search& search, const SearchEnd& from, const Eigen::VectorXd& wanted, int start);
 
-/// Those of an end's flat directions that are flat beyond the first order: a search from a tenth of the ranges along one ends
-/// at equal cost and far from where it set out. At the optimum of a symmetric structure the slopes of its halves are alike, but
-/// a search from beside it returns.
+/// Flat directions of an end that remain flat beyond the first order: a search from a point up to a tenth of the ranges away
+/// ends at equal cost and far from `end`. At the optimum of a symmetric structure, parameters of the two halves have equal
+/// slopes, but a search from a point beside it returns.
 /// @param end  converged
 [[nodiscard]] Eigen::MatrixXd directions_of_valley(const Search& search, const SearchEnd& end);
 

@@ -20,7 +20,7 @@ std::vector<int> target_of_mode(const matching::Measured& measured, const matchi
   return target;
 }
 
-/// A computed mode, and those whose frequencies lead to it in steps below the gap (as in matching/pairing).
+/// A computed mode with its cluster: modes whose neighbours in frequency are closer than the gap (as in matching/pairing).
 std::vector<int> close_modes(const Eigen::VectorXd& frequency_Hz, Index mode, double gap) {
   const auto close = [&](Index upper) { return frequency_Hz[upper] - frequency_Hz[upper - 1] < gap * frequency_Hz[upper]; };
   std::vector<int> span = {static_cast<int>(mode)};
@@ -53,7 +53,7 @@ MeasuredRows weighed_rows(const UpdatingSettings& config, const matching::Measur
   if (!config.weighs()) return rows;
   const std::vector<int> target = target_of_mode(measured, pairing);
   std::vector<Index> taken(pairing.pairs.size());
-  std::vector<double> own_error(taken.size());  // of the model, in the row's unit
+  std::vector<double> own_error(taken.size());  // of the model, in the unit of the row
   for (std::size_t r = 0; r < measured.rows.size(); ++r) {
     const matching::MeasuredRow& row = measured.rows[r];
     const int t = target[static_cast<std::size_t>(row.mode)];

@@ -9,15 +9,15 @@
 #include "updating/updating.hpp"
 #include "updating/updating_settings.hpp"
 
-/// An update that weighs frequencies and shapes by the covariance of the measurement: its rows, and what became of them.
+/// An update that weighs frequencies and shapes by the covariance of the measurement: its rows, and their values after the fit.
 namespace twindeck::updating {
 
 /// @throws InputError  where no shape was measured, or none has a standard deviation
 void refuse_unweighable_shapes(const matching::Measured& measured);
 
-/// The rows of the paired modes with their covariance, and the model's own error added to it. Modes closer to a pair's computed
-/// one than `cluster_gap` span its shape together.
-/// @return rows that are not given() where the configuration asks for Eq. (5)
+/// The rows of the paired modes with their covariance, to which the model error is added. The shape of a pair may combine the
+/// computed modes that are closer in frequency than `cluster_gap`.
+/// @return empty rows (given() is false) if the configuration asks for Eq. (5)
 [[nodiscard]] MeasuredRows weighed_rows(const UpdatingSettings& config, const matching::Measured& measured,
                                         const matching::Pairing& pairing, const dynamics::LoadedModel& loaded,
                                         const dynamics::EigenModes& modes);

@@ -14,12 +14,12 @@ namespace {
 
 using Eigen::Index;
 
-constexpr double named_component = 0.2;    ///< [prior standard deviations] of a flat direction: smaller ones are left out
-constexpr double as_good = 4.0;            ///< [-] of chi²: two standard deviations of one parameter
-constexpr double doubtful_score = 3.09;    ///< [-] of chi²: one sound measurement in a thousand is above
-constexpr double most_of_misfit = 0.4;     ///< [-] share of the squared differences that singles a channel out
-constexpr double close_correlation = 0.9;  ///< [-] from it on the deviations alone mislead
-constexpr double told_share = 0.95;        ///< [-] of a flat direction that lies in what weighing_words.hpp tells
+constexpr double named_component = 0.2;  ///< [prior standard deviations] smaller components of a flat direction are not named
+constexpr double as_good = 4.0;  ///< [-] difference of chi² of equally good optima: two standard deviations of one parameter
+constexpr double doubtful_score = 3.09;    ///< [deviations] score of chi² that one sound measurement in a thousand exceeds
+constexpr double most_of_misfit = 0.4;     ///< [-] share of the squared differences above which a channel is named
+constexpr double close_correlation = 0.9;  ///< [-] above this correlation the deviations alone mislead
+constexpr double told_share = 0.95;        ///< [-] part of a flat direction that must lie in UpdatingResult::flat
 
 std::vector<std::vector<std::string>> sets_at(const Weighed& weighed, const Eigen::MatrixXd& jacobian) {
   if (jacobian.size() == 0) return {};
@@ -59,14 +59,15 @@ std::vector<std::string> twin_sentences(const Weighed& weighed) {
   return sentences;
 }
 
-/// Whether a flat direction is one that the data don't see at all (UpdatingResult::flat), of which another sentence tells.
+/// Whether a flat direction is one of those that the data do not determine at all (UpdatingResult::flat). Another sentence
+/// names these.
 bool is_told(const UpdatingResult& result, const FlatDirection& flat) {
   if (result.flat.cols() == 0) return false;
   const Eigen::VectorXd per_range = flat.step.cwiseQuotient(result.scale).cwiseQuotient(result.box.upper - result.box.lower);
   return (result.flat.transpose() * per_range).norm() >= told_share * per_range.norm();
 }
 
-/// Directions that the rows hardly limit. @param several  those of several parameters, else those of one
+/// Directions that the rows hardly limit. @param several  true: directions of several parameters; false: of one
 /// @param rows  their name
 std::vector<std::string> flat_sentences(const Weighed& weighed, const Posterior& posterior, bool several,
                                         const char* rows = "what is weighed") {
@@ -103,7 +104,7 @@ std::vector<std::string> rival_sentences(const Weighed& weighed) {
   return sentences;
 }
 
-/// Empty where the differences are as large as the covariance says; else how large, and which channel makes most of them.
+/// Size of the differences and the channel with the largest share; empty if they are as large as the covariance says.
 std::string misfit_sentence(const Weighed& weighed, const Posterior& posterior) {
   if (posterior.chi_squared_score() < doubtful_score) return "";
   std::map<std::string, double> by_channel;
@@ -170,7 +171,7 @@ std::optional<Posterior> posterior_of_frequencies(const Weighed& weighed) {
     if (!std::isfinite(deviations)) return std::nullopt;
     chi_squared += at.residual[i] * at.residual[i] * deviations * deviations;
     at.jacobian.row(i) *= deviations;
-    at.residual[i] /= deviations;  // the gradient stays as it is, and with it what the bounds hold
+    at.residual[i] /= deviations;  // J'r stays the same, so the bounds hold the same parameters
   }
   Posterior out = posterior(at, weighed.normalised(), weighed.result.box, weighed.result.scale);
   out.chi_squared = chi_squared;
@@ -185,8 +186,8 @@ void say_flat_frequencies(Reporter& reporter, const Weighed& weighed, const Post
 
 namespace {
 
-constexpr double named_share = 0.1;  // [-] of a unit direction: who takes part less is left out of a sentence
-constexpr double at_rest = 1e-6;     // [ranges] within which a parameter is at its initial value
+constexpr double named_share = 0.1;  // [-] component of a unit direction; parameters with smaller ones are not named
+constexpr double at_rest = 1e-6;     // [ranges] a parameter this near to its initial value has not moved
 
 /// The component that a direction consists of, -1 for several.
 Index only_component(const Eigen::VectorXd& direction) {
@@ -207,8 +208,8 @@ std::string sentence_of_one(const Weighed& weighed, Index j) {
             : fmt::format("its value {:.6g} means nothing", value));
 }
 
-/// One direction is told with steps of one standard deviation of the ranges, as those of `FlatDirection`, the first of them
-/// upwards. Of more directions only the names are the same on every processor.
+/// A single direction is given with steps of one standard deviation of the ranges, the first step upwards. Of several
+/// directions only the names are given: their steps differ between processors.
 std::string sentence_of_several(const Weighed& weighed, const Eigen::MatrixXd& directions) {
   std::vector<std::string> names, steps;
   double sign = 0.0;

@@ -15,7 +15,7 @@ namespace twindeck::updating {
 
 /// A measured row beside what the updated model computes for it.
 struct WeighedRow {
-  Eigen::Index at = 0;                           ///< position among the rows
+  Eigen::Index at = 0;                           ///< position among all rows
   std::size_t target = 0;                        ///< position of its pair
   std::string type;                              ///< frequency_Hz, shape, shape_imag
   std::string channel;                           ///< of a shape, else empty
@@ -34,22 +34,22 @@ void say_weighing(Reporter& reporter, const Weighed& weighed, const Posterior& p
 [[nodiscard]] std::optional<Posterior> posterior_of_frequencies(const Weighed& weighed);
 
 /// Directions that relative frequencies hardly limit, counted in the frequencies' standard deviations, as lines: an update by
-/// Eq. (5) gives their values as exactly as any other.
+/// Eq. (5) does not show by itself that their values are uncertain.
 /// @param posterior  of `posterior_of_frequencies`
 void say_flat_frequencies(Reporter& reporter, const Weighed& weighed, const Posterior& posterior);
 
-/// What the data do not determine at the published end (UpdatingResult::flat), in sentences. One for each parameter that
-/// nothing depends on, and one for all that change nothing together.
+/// Sentences on what the data do not determine at the published end (UpdatingResult::flat): one for each parameter without any
+/// effect, and one for all parameters that have no effect together.
 [[nodiscard]] std::vector<std::string> undetermined_sentences(const Weighed& weighed);
 
-/// Warns of them, with any weights.
+/// Warns of undetermined parameters, with any weights.
 void warn_of_undetermined(Reporter& reporter, const Weighed& weighed);
 
-/// Parameters that the paired frequencies cannot tell apart at the model's initial values, in sets: what one of a set does to
-/// the frequencies over half its allowed range, another does as well (or undoes) to within one standard deviation of all of
-/// them together. The two halves of a symmetric structure are the plainest case. A parameter that moves the frequencies by less
-/// than one deviation is in no set: it is not seen at all. Exact derivatives (sensitivity::frequency_jacobian), in the scaling
-/// of step 5's selection.
+/// Parameters that the paired frequencies cannot tell apart at the model's initial values, in sets: the change of the
+/// frequencies by one parameter over half its range equals a multiple of the change by another, to within one standard
+/// deviation of all frequencies together. An example is the two halves of a symmetric structure. A parameter that moves the
+/// frequencies by less than one deviation is in no set. Exact derivatives (sensitivity::frequency_jacobian), in the scaling of
+/// step 5's selection.
 /// @param active  positions of the updated parameters
 /// @return names, each set in the order of the model; empty where all can be told apart
 [[nodiscard]] std::vector<std::vector<std::string>> indistinct_parameters(const dynamics::LoadedModel& loaded,

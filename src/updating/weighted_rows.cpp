@@ -18,11 +18,11 @@ using Eigen::VectorXd;
 /// [-] A computed shape whose part outside the span of the others is below this share of it adds nothing to that span.
 constexpr double dependent_shape = 1e-8;
 
-/// Orthonormal basis of the span of the scaled columns, and what solves for their factors.
+/// Orthonormal basis of the span of the scaled columns, with the factors that solve for their coefficients.
 struct Span {
-  VectorXd length;           // of the columns before they were scaled to 1
+  VectorXd length;           // of the columns before they were scaled to unit length
   std::vector<Index> basic;  // independent columns
-  MatrixXd q, r;             // of these: scaled columns = q r
+  MatrixXd q, r;             // of the independent columns: scaled columns = q r
 
   explicit Span(MatrixXd a) : length(a.colwise().norm().transpose()) {
     if (a.cols() == 0) return;
@@ -37,11 +37,11 @@ struct Span {
     r = qr.matrixR().topLeftCorner(rank, rank).triangularView<Eigen::Upper>();
   }
   [[nodiscard]] Index rank() const { return std::ssize(basic); }
-  /// Of columns of the same kind: the independent ones, scaled alike.
+  /// The independent ones of other columns of the same order, scaled by the same lengths.
   [[nodiscard]] MatrixXd scaled(const MatrixXd& a) const {
     return a(Eigen::all, basic) * length(basic).cwiseInverse().asDiagonal();
   }
-  /// What is left of x outside the span; the second pass takes away what rounding left of the first.
+  /// Part of x outside the span; the second pass removes the rounding of the first.
   [[nodiscard]] VectorXd outside(VectorXd x) const {
     if (rank() == 0) return x;
     for (int pass = 0; pass < 2; ++pass) x -= q * (q.transpose() * x).eval();
@@ -108,7 +108,7 @@ MatrixXd WeightedRows::scale_columns(const MatrixXd& shape, const std::vector<st
 
 WeightedEvaluation WeightedRows::evaluate(const ComputedRows& computed, bool with_jacobian) const {
   const auto n_active = with_jacobian ? computed.frequency_slope.cols() : Index{0};
-  VectorXd given = VectorXd::Zero(value_.size());  // g, and its slopes
+  VectorXd given = VectorXd::Zero(value_.size());  // g, and its slopes below
   MatrixXd given_slope = MatrixXd::Zero(value_.size(), n_active);
   for (std::size_t i = 0; i < kept_.size(); ++i) {
     if (first_scale_[i] >= 0) continue;
