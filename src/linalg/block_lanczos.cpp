@@ -14,12 +14,11 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-/// The Lanczos basis with its projected operator.
 struct Basis : KrylovBasis {
   MatrixXd projected;  ///< T (capacity × capacity)
 
   Basis(Index n, Index capacity) : KrylovBasis(n, capacity), projected(MatrixXd::Zero(capacity, capacity)) {}
-  /// The columns of T that belong to the last block, from what its image has in common with the basis.
+  /// Columns of T that belong to the last block. @param common  what `remove_from` took off its image
   void project(Index first, const MatrixXd& common) {
     projected.block(0, first, size, common.cols()) = common;
     projected.block(first, 0, common.cols(), first) = common.topRows(first).transpose();
@@ -34,7 +33,7 @@ struct Basis : KrylovBasis {
     const Eigen::SelfAdjointEigenSolver<MatrixXd> eig(t);
     return {eig.eigenvalues().reverse(), eig.eigenvectors().rowwise().reverse()};
   }
-  /// Thick restart: the best Ritz vectors stay; the coupling to the next block comes back with its own step.
+  /// Thick restart: keeps the best Ritz vectors. The next step finds their coupling to the next block.
   void restart(const Ritz& found, Index keep) {
     v.leftCols(keep) = product(v.leftCols(size), found.s.leftCols(keep));
     mass_v.leftCols(keep) = product(mass_v.leftCols(size), found.s.leftCols(keep));
@@ -52,7 +51,7 @@ BlockLanczosResult block_lanczos(const SelfAdjointOperator& op, const std::funct
   const Index wanted = n_pairs;
   const MatrixXd first_block = start(0);
   const Index n = first_block.rows(), width = first_block.cols();
-  // Room for the wanted pairs, as many again to hasten them, and the last block.
+  // Room for the wanted pairs, for as many further vectors, which speed up the convergence, and for the last block.
   const Index capacity = std::min(n, std::max<Index>(2 * wanted + 2 * width, wanted + 6 * width)) + width;
   Basis basis(n, capacity);
   const auto remainder = [&](MatrixXd w, const MatrixXd& removed) {
@@ -63,7 +62,7 @@ BlockLanczosResult block_lanczos(const SelfAdjointOperator& op, const std::funct
   BlockLanczosResult result;
   OrthonormalBlock next = remainder(first_block, MatrixXd::Zero(1, width));
   int restarts = 0, draws = 0;
-  Index before = 0;  // first column of the block before the last; 0 also where the last is coupled to all (a restart)
+  Index before = 0;  // first column that the last block is coupled to; 0 after a restart
   while (next.q.cols() > 0) {
     const Index first = basis.size, columns = next.q.cols();
     basis.append(next);
@@ -76,7 +75,8 @@ BlockLanczosResult block_lanczos(const SelfAdjointOperator& op, const std::funct
 
     MatrixXd coupling_r = next.r;
     if (next.q.cols() == 0 && basis.size < std::min(n, wanted + width)) {
-      // An invariant subspace: what lies outside it (further copies of its eigenvalues, say) needs a new start.
+      // The basis spans an invariant subspace. Pairs outside it, such as further copies of an eigenvalue, need a new start
+      // block.
       MatrixXd fresh = start(++draws);
       const MatrixXd known = basis.remove_from(fresh, 0);
       next = remainder(std::move(fresh), known);

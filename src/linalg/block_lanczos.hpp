@@ -12,7 +12,7 @@ struct SelfAdjointOperator {
 };
 
 struct BlockLanczosResult {
-  Eigen::MatrixXd vectors;  ///< (n × found) M-orthonormal, those of the largest eigenvalues first
+  Eigen::MatrixXd vectors;  ///< (n × found) M-orthonormal, largest eigenvalue first
   int converged = 0;
   int operations = 0;
 };
@@ -31,8 +31,8 @@ struct OrthonormalBlock {
 
 /// Orthonormalises `w` in the inner product of M by the eigenvectors of its Gram matrix, twice because of rounding.
 /// @param mass_w   M w; receives the same combinations as w, so that one product with M is enough
-/// @param removed  what was taken off w along an M-orthonormal basis before (one row of zeros for nothing): of columns that are
-///                 below 1e-11 of their norm with it only rounding is left
+/// @param removed  what an M-orthonormal basis has already taken off w (one row of zeros: nothing). A column that has become
+///         shorter than 1e-11 of its earlier norm is rounding and is dropped
 [[nodiscard]] OrthonormalBlock orthonormalise(Eigen::MatrixXd w, Eigen::MatrixXd mass_w, const Eigen::MatrixXd& removed);
 
 /// The M-orthonormal basis of a block Krylov method, with its products by M.
@@ -42,8 +42,8 @@ struct KrylovBasis {
 
   KrylovBasis(Eigen::Index n, Eigen::Index capacity) : v(n, capacity), mass_v(n, capacity) {}
   void append(const OrthonormalBlock& block);
-  /// Makes `w` orthogonal to the basis. The image of the last block has a part along the last two only, but for rounding: taken
-  /// off first, it leaves a remainder of which one pass over the whole basis takes the rest.
+  /// Makes `w` orthogonal to the basis. In exact arithmetic the image of a block has components in the last two blocks only.
+  /// These are taken off first. One pass over the whole basis then removes the rounding.
   /// @param near  first column of the basis along which `w` has more than rounding (0: all of it)
   /// @return what was taken off, (size × columns of w)
   [[nodiscard]] Eigen::MatrixXd remove_from(Eigen::MatrixXd& w, Eigen::Index near) const;

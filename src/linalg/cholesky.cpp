@@ -18,8 +18,8 @@ namespace twindeck::linalg {
 
 namespace {
 
-/// A pivot that is this small against the diagonal entry it started from is what rounding leaves of zero: a free structure or a
-/// mechanism can pass CHOLMOD's test for a positive pivot by luck. A beam of 1000 elements still has 1e-10.
+/// [-] Pivot over its diagonal entry, below which the matrix counts as singular. The pivot of a free structure or a mechanism
+/// should be zero, but rounding may leave a positive one, which CHOLMOD accepts. A beam of 1000 elements has 1e-10.
 constexpr double kSingularPivot = 1e-13;
 
 /// Squares of the factor's diagonal, in the order of elimination.
@@ -44,7 +44,6 @@ std::vector<double> pivots(const cholmod_factor& factor) {
 
 }  // namespace
 
-/// CHOLMOD's settings and workspace.
 struct CholmodSession {
   cholmod_common common{};
 
@@ -62,7 +61,7 @@ static void check_memory(const cholmod_common& common) {
   if (common.status == CHOLMOD_OUT_OF_MEMORY || common.status == CHOLMOD_TOO_LARGE) throw std::bad_alloc();
 }
 
-/// A symbolic factorisation with the pattern that it is of.
+/// A symbolic factorisation and the matrix pattern that it belongs to.
 struct Symbolic : CholmodSession {
   std::vector<int> outer, inner;
   cholmod_factor* factor = nullptr;
@@ -85,8 +84,8 @@ struct Symbolic : CholmodSession {
 
 namespace {
 
-/// The symbolic factorisation of a pattern: found once and kept for the last few patterns, since prestress, modes, derivatives
-/// and every start of an update factorise the same one.
+/// The symbolic factorisation of a pattern, computed once. The last few are kept, because prestress, modes, derivatives and all
+/// starts of an update factorise matrices of the same pattern.
 std::shared_ptr<const Symbolic> symbolic_of(const SparseMatrix& lower) {
   constexpr std::size_t kept = 4;
   static std::mutex mutex;
@@ -99,7 +98,7 @@ std::shared_ptr<const Symbolic> symbolic_of(const SparseMatrix& lower) {
   return known.front();
 }
 
-/// What cholmod_solve2 works in. A thread keeps its own, so that several can solve with one factor at a time.
+/// Workspace of cholmod_solve2. Each thread has its own, so that several can solve with one factor at a time.
 struct SolveWorkspace : CholmodSession {
   cholmod_dense *solution = nullptr, *y = nullptr, *e = nullptr;
 
@@ -112,7 +111,7 @@ struct SolveWorkspace : CholmodSession {
 
 struct Cholesky::Impl : CholmodSession {
   cholmod_factor* factor = nullptr;
-  std::shared_ptr<const Symbolic> symbolic;  // what `factor` started from, so that a changed pattern is noticed
+  std::shared_ptr<const Symbolic> symbolic;  // symbolic factorisation of `factor`; shows when the pattern changes
   Eigen::Index failed = -1;
 
   Impl() { common.final_ll = 1; }  // LL': an indefinite matrix breaks down instead of giving negative pivots

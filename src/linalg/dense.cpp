@@ -66,7 +66,7 @@ Matrix solved_by(Gesv gesv, Matrix a, Matrix b) {
   return b;
 }
 
-/// Calls a LAPACK routine twice: it says how much room it wants in the first number of `work`, then it works there.
+/// Calls a LAPACK routine twice. The first call returns the needed size in the first number of `work`; the second computes.
 template <typename Routine>
 void with_room(Routine call) {
   double wanted = 0.0;
@@ -76,9 +76,9 @@ void with_room(Routine call) {
   call(work.data(), &room);
 }
 
-/// The `n` largest eigenpairs, descending, or those of values above `least` where n is 0. The tridiagonal form is solved whole
-/// by divide and conquer (DSTEDC), and the wanted vectors alone are turned back: bisection and inverse iteration, which DSYEVR
-/// takes for a part, cost twice as much from a tenth of the pairs on and may fail on close values.
+/// The `n` largest eigenpairs, descending, or those of values above `least` where n is 0. Divide and conquer (DSTEDC) solves
+/// the whole tridiagonal form; only the wanted vectors are transformed back. DSYEVR would use bisection and inverse iteration,
+/// which cost twice as much if more than a tenth of the pairs are wanted, and may fail on close values.
 LeadingEigenpairs some_eigenpairs(Eigen::MatrixXd symmetric, Index n, double least) {
   use_one_thread();
   TWINDECK_ASSERT(symmetric.rows() == symmetric.cols());

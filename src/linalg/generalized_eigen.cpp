@@ -22,8 +22,8 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-/// Vectors of a block. Wider ones ask for more solves than they save by reading the factor once for all of their columns (8:
-/// 127 solves for 91 at 29,000 degrees of freedom).
+/// Vectors of a block. With 8, the factor is read less often, but more solves are needed: 127 instead of 91 at 29,000 degrees
+/// of freedom.
 constexpr int kBlock = 4;
 
 /// Numbers in [-1, 1[ from a fixed sequence, the same on every machine; another sequence for each `draw`.
@@ -68,8 +68,8 @@ BlockLanczosResult by_lanczos(const SparseMatrix& mass, int n_pairs, const Chole
   return found;
 }
 
-/// Scales each y = A^-1 M x to y'My = 1, and M x alike. Where members are all but massless, lambda spans ten decades; unscaled,
-/// y'My of the highest modes would drown in the rounding of the lowest.
+/// Scales each y = A^-1 M x to y'My = 1, and M x alike. In a model with nearly massless members lambda spans ten decades.
+/// Without the scaling, y'My of the highest modes would be smaller than the rounding of the lowest.
 void scale_to_unit_mass(MatrixXd& mass_x, MatrixXd& y, MatrixXd& mass_y) {
   for (Index j = 0; j < y.cols(); ++j) {
     const double scale = 1.0 / std::sqrt(y.col(j).dot(mass_y.col(j)));

@@ -9,8 +9,8 @@
 namespace twindeck::linalg {
 
 void use_one_thread() {
-  // Looked up at run time: which BLAS serves CHOLMOD is the system's choice, and only OpenBLAS has this function. Once, since
-  // OpenBLAS keeps the number in a variable that all threads share.
+  // The function is looked up at run time, because only OpenBLAS has it and the system chooses the BLAS of CHOLMOD. It is
+  // called once: OpenBLAS keeps the number of threads in a variable that all threads share.
   [[maybe_unused]] static const bool limited = [] {
     void* symbol = dlsym(RTLD_DEFAULT, "openblas_set_num_threads");
     if (symbol != nullptr) reinterpret_cast<void (*)(int)>(symbol)(1);
@@ -23,7 +23,7 @@ bool reserve_blas_memory(int threads) {
   static const auto give_back = reinterpret_cast<void (*)(void*)>(dlsym(RTLD_DEFAULT, "blas_memory_free"));
   if (take == nullptr || give_back == nullptr) return true;
   constexpr std::size_t most = 64;                      // OpenBLAS of Debian has places for twice as many threads
-  constexpr std::size_t rest = std::size_t{16} << 20U;  // [bytes] for what else it needs to begin
+  constexpr std::size_t rest = std::size_t{16} << 20U;  // [bytes] for the other memory that OpenBLAS needs to begin
   const std::size_t count = std::min(static_cast<std::size_t>(threads), most), bytes = count * blas_memory_bytes + rest;
   void* const trial = ::mmap(nullptr, bytes, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS | MAP_NORESERVE, -1, 0);
   if (trial == MAP_FAILED) return false;

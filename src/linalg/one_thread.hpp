@@ -9,11 +9,11 @@ namespace twindeck::linalg {
 /// the first call sets the limit. Eigen needs none: no source that includes it is compiled with OpenMP.
 void use_one_thread();
 
-/// [bytes] Working memory that OpenBLAS takes for each thread that calls it: addresses, of which it uses a small part.
+/// [bytes] Working memory that OpenBLAS takes for each thread that calls it: address space, of which it uses a small part.
 constexpr std::size_t blas_memory_bytes = std::size_t{128} << 20U;
 
-/// Takes OpenBLAS's working memory for `threads` threads at once, before the data fill what there is: refused it later,
-/// OpenBLAS asks again without end. It is kept for later calls. Does nothing if the BLAS is not OpenBLAS.
+/// Takes OpenBLAS's working memory for `threads` threads at once, before the data fill the memory. If OpenBLAS gets no memory
+/// later, it asks again without end. The memory is kept for later calls. Does nothing if the BLAS is not OpenBLAS.
 /// @return false if this process may not use so much memory (ulimit -v); nothing was taken then
 [[nodiscard]] bool reserve_blas_memory(int threads);
 

@@ -11,7 +11,7 @@ Eigen::MatrixXd symmetric_product(const SparseMatrix& lower, const Eigen::Ref<co
   double one[] = {1.0, 0.0}, zero[] = {0.0, 0.0};
   cholmod_common common;
   cholmod_start(&common);
-  cholmod_sdmult(&a, 0, one, zero, &from, &to, &common);  // four columns at a time; Eigen's product takes one
+  cholmod_sdmult(&a, 0, one, zero, &from, &to, &common);  // multiplies four columns at a time; Eigen's product takes one
   cholmod_finish(&common);
   return y;
 }

@@ -11,8 +11,8 @@ using SparseMatrix = Eigen::SparseMatrix<double, Eigen::ColMajor, int>;
 /// A X of a symmetric matrix.  @param lower  lower triangle of A (n × n) @param x (n × m) @return (n × m)
 [[nodiscard]] Eigen::MatrixXd symmetric_product(const SparseMatrix& lower, const Eigen::Ref<const Eigen::MatrixXd>& x);
 
-/// The matrix without stored zeros, for many products: on the common pattern of stiffness and mass most entries of the mass are
-/// zero.
+/// The matrix without stored zeros, for repeated products. Stiffness and mass share one pattern, where most entries of the mass
+/// are zero.
 [[nodiscard]] inline SparseMatrix without_zeros(SparseMatrix matrix) {
   matrix.prune([](Eigen::Index, Eigen::Index, double value) { return value != 0.0; });
   return matrix;

@@ -29,10 +29,10 @@ VectorXd unit(Index n, Index i, double value) {
   return u;
 }
 
-/// Half of the logarithm of a ratio of positive numbers; 0 for equal ones.
+/// Half of the logarithm of the ratio above / below; 0 for equal numbers.
 double half_log(double above, double below) { return above == below ? 0.0 : 0.5 * std::log(above / below); }
 
-/// A bridge with its inputs at their medians, and where the air's forces are taken.
+/// A bridge with its inputs at their medians, and the derivative frequencies of its aerodynamic forces.
 struct AtMedians {
   const UncertainBridge& bridge;
   const aero::WindModel& model;
@@ -58,10 +58,11 @@ struct AtMedians {
   }
 };
 
-/// [-] of the aerodynamic level: step of its central difference. Forces are linear in it, or nearly so.
+/// [-] Step of the aerodynamic level for central differences. The forces are linear in it, or nearly so.
 constexpr double kLevelStep = 1e-3;
 
-/// What each number of u changes, to first order. @param settings  of the buffeting loads; null: no loads are asked for
+/// First-order changes of the system with each number of u. @param settings  of the buffeting loads; null: no loads are
+/// computed
 std::vector<buffeting::SystemSlope> system_slopes(const AtMedians& at, double speed_m_s, double omega,
                                                   const buffeting::WindEventSettings* settings) {
   const aero::AeroelasticSystem above = at.system(std::exp(kLevelStep)), below = at.system(std::exp(-kLevelStep));
@@ -99,7 +100,7 @@ constexpr double kImpedanceStep = 1e-4;
 VectorXd crossing_slopes(const aero::AeroelasticSystem& system, const aero::CriticalPoint& point,
                          const std::vector<buffeting::SystemSlope>& slopes) {
   VectorXd out = VectorXd::Zero(std::ssize(slopes));
-  // A mode without damping in still air crosses nothing: whatever the inputs are, it grows from the first speed on.
+  // A mode that is not damped in still air has no crossing: it grows from the first speed on, whatever the inputs are.
   if (point.bracket_m_s == point.speed_m_s) return out;
   const double speed = point.speed_m_s, omega = point.motion.lambda.imag(), h = kImpedanceStep;
   const auto impedance = [&](double v, double w) { return buffeting::impedance(system, system.self_excited(v, w), w); };
@@ -207,8 +208,8 @@ UncertainMoments uncertain_moments(
   const aero::AeroelasticSystem system = at.system();
   const double turn = 2.0 * std::numbers::pi, frozen = response.bridge.frozen_omega;
   UncertainMoments out;
-  // Derivatives of the first mode say nothing of motions above the spectra's cutoff, many times faster. Those are judged by the
-  // derivatives of their own frequency, like the modes that step 7 follows.
+  // Derivatives at the frequency of the first mode do not hold for motions above the cutoff of the spectra, which are many
+  // times faster. Such motions use derivatives at their own frequency, like the modes that step 7 follows.
   const double highest = turn * response.settings.cutoff_Hz;
   const aero::DerivativeFrequencies frequencies{frozen, {turn * kLowestDerivatives_Hz, highest}, highest};
   if (const std::optional<aero::Growth> growth = aero::find_growth(system, speed_m_s, frequencies)) {

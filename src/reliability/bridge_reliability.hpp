@@ -27,11 +27,11 @@ struct UncertainBridge {
   std::function<std::vector<aero::SectionAero>(double factor)> sections;  ///< of the set at a factor of its level
   double damping_ratio = 0.0;                                             ///< where it is not random
 
-  /// What the inputs' values change. @param u (dimension) standard normal numbers
+  /// Changes of the inputs' values. @param u (dimension) standard normal numbers
   [[nodiscard]] WindVariation variation(const Eigen::VectorXd& u) const;
 
-  /// Mean change of the inputs over one standard deviation of a number of u to either side: of parameters in their units, of
-  /// all others of the logarithm.
+  /// Mean change of the inputs over one standard deviation of a number of u to either side: of parameters in their own units,
+  /// of all other inputs of the logarithm.
   struct Change {
     Eigen::VectorXd parameters;
     double damping = 0.0, aerodynamic = 0.0, dampers = 0.0, turbulence = 0.0, corrosion = 0.0;
@@ -39,8 +39,8 @@ struct UncertainBridge {
   [[nodiscard]] std::vector<Change> changes() const;
 };
 
-/// A quantity as a function of u, by its value and its exact slopes in u = 0 of its logarithm. Quantities of vibration depend
-/// on dampings and stiffnesses by powers, so that the logarithm is close to linear.
+/// A quantity as a function of u: its value, and the exact slopes of its logarithm at u = 0. Quantities of vibration are
+/// products of powers of dampings and stiffnesses, so the logarithm is close to linear.
 struct LogLinear {
   double value = 0.0;     ///< at u = 0
   Eigen::VectorXd slope;  ///< (dimension) d ln(value) / d u_i
@@ -66,20 +66,20 @@ struct CriticalSpeed {
 
 /// Spectral moments of responses in a mean wind: of all rows at u = 0, of some of them as functions of u.
 struct UncertainMoments {
-  bool stable = true;                 ///< at u = 0; else nothing but this and the next holds
-  std::string growth;                 ///< of what grows then, in words, among all modes of the response
+  bool stable = true;                 ///< at u = 0; if false, only this and `growth` are set
+  std::string growth;                 ///< sentence that names the unstable mode at u = 0; empty if stable
   std::vector<SpectralMoments> mean;  ///< (n_rows) at u = 0
-  std::vector<std::size_t> varied;    ///< (n_varied) the rows that the following are of
+  std::vector<std::size_t> varied;    ///< (n_varied) the rows that the slopes below belong to
   std::vector<Eigen::VectorXd> variance_slope, rate_slope,
-      bandwidth_slope;  ///< (n_varied) (dimension) of ln lambda_0, ln nu, ln delta
+      bandwidth_slope;  ///< (n_varied) (dimension) slopes of ln lambda_0, ln nu, ln delta
   /// @param k  position in `varied`  @param u (dimension)
   [[nodiscard]] SpectralMoments at(std::size_t k, const Eigen::VectorXd& u) const;
-  /// Slopes on the rate of corrosion: to first order what it changed since an earlier year grows in proportion to it.
+  /// Adds the slopes with the rate of corrosion. To first order, the change since the year 0 is proportional to that rate.
   /// @param earlier  the same rows in the year 0  @param change  see UncertainBridge::Change
   void add_corrosion(const UncertainMoments& earlier, const std::vector<UncertainBridge::Change>& change);
 };
 
-/// What a response is asked of: the reduced bridge, its turbulence, a deployment, rows of sensors.
+/// Input of a response: the reduced bridge, its turbulence, a deployment, rows of sensors.
 struct WindResponse {
   const buffeting::BridgeInWind& bridge;
   const VariedStructure& structure;
@@ -87,9 +87,9 @@ struct WindResponse {
   const wind::TurbulenceSet& turbulence;
   aero::Deployment deployment;
   Eigen::MatrixXd rows;            ///< (n_rows × m) of each sensor per unit of each coordinate
-  Eigen::Index accelerations = 0;  ///< so many rows are accelerations of what they measure; those below them are not derived
+  Eigen::Index accelerations = 0;  ///< number of leading rows whose acceleration is computed; later rows are not differentiated
 };
-/// @param choose  the rows whose spread is asked for, from the moments of all rows at u = 0
+/// @param choose  selects the rows whose spread is computed, from the moments of all rows at u = 0
 [[nodiscard]] UncertainMoments uncertain_moments(
     const UncertainBridge& bridge, const WindResponse& response, double speed_m_s,
     const std::function<std::vector<std::size_t>(const std::vector<SpectralMoments>& mean)>& choose);
@@ -100,7 +100,7 @@ struct Excursion {
   double poisson = 0.0, crossing_rate_Hz = 0.0;  ///< at u = 0, of |x| and of x
 };
 /// @param k        position in `moments.varied`
-/// @param samples  of u that spread is taken over  @param seed  of these samples
+/// @param samples  number of samples of u for the spread  @param seed  of these samples
 [[nodiscard]] Excursion excursion(const UncertainMoments& moments, std::size_t k, double limit, double duration_s, int samples,
                                   std::uint64_t seed);
 

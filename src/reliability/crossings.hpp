@@ -12,7 +12,7 @@ struct SpectralMoments {
   double fourth = 0.0;    ///< lambda_4 [unit² rad⁴/s⁴]
   /// Upward crossings of the mean [1/s]: sqrt(lambda_2/lambda_0)/(2 pi).
   [[nodiscard]] double mean_rate_Hz() const;
-  /// Those of the response times a factor.
+  /// The moments of the response times a factor.
   [[nodiscard]] SpectralMoments scaled(double factor) const {
     const double square = factor * factor;
     return {square * variance, square * first, square * second, square * fourth};

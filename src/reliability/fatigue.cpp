@@ -12,7 +12,7 @@ namespace {
 
 /// Cycles at the category's range (EN 1993-1-11, 9.2).
 constexpr double kCategoryCycles = 2e6;
-/// Ranges beyond so many deviations hold less than 1e-12 of any damage.
+/// Ranges above this many standard deviations hold less than 1e-12 of any damage.
 constexpr double kLargestRange = 20.0;
 
 std::vector<double> turning_points(const Eigen::Ref<const VectorXd>& history) {
@@ -48,7 +48,7 @@ std::vector<Cycle> rainflow(const Eigen::Ref<const VectorXd>& history) {
       const std::size_t n = stack.size();
       const double latest = std::abs(stack[n - 1] - stack[n - 2]), before = std::abs(stack[n - 2] - stack[n - 3]);
       if (latest < before) break;
-      if (n == 3) {  // the range holds the start: half a cycle
+      if (n == 3) {  // the range includes the start: half a cycle
         cycles.push_back({before, 0.5});
         stack.erase(stack.begin());
       } else {

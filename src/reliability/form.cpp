@@ -29,7 +29,7 @@ constexpr double kPenalty = 2.0;
 /// the reference).
 constexpr double kTestAccuracy = 2.0;
 
-/// A kink is where a move of less than this length [-] changes the slope by more than this share of |g(0)|, so often in one
+/// A kink: a move shorter than kShortMove [-] changes the slope by more than the share kJump of |g(0)|, kJumps times in one
 /// search.
 constexpr double kShortMove = 0.05, kJump = 0.25;
 constexpr int kJumps = 3;
@@ -87,7 +87,7 @@ class Search {
   }
 
   int calls = 0;
-  int kinks = 0;  ///< searches that ended without a point, where the slope jumps
+  int kinks = 0;  ///< searches that ended at a kink of g, without a design point
 
  private:
   VectorXd gradient(const VectorXd& u) {
@@ -135,8 +135,8 @@ bool away_from(const std::vector<DesignPoint>& points, const VectorXd& on_sphere
   });
 }
 
-/// The strong-maximum test: points of the sphere that exceed the limit and that no known design point explains are starts of a
-/// search.
+/// Strong-maximum test: a point of the sphere starts a search if it exceeds the limit and lies beyond no known design point's
+/// tangent plane.
 void look_for_further_points(Search& search, Index n, const FormOptions& options, FormResult& result) {
   const double beta = result.points.front().u.norm();
   const double further = std::sqrt(1.0 - 2.0 * std::log(options.importance_level) / (beta * beta)) - 1.0;

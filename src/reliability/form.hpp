@@ -33,17 +33,17 @@ struct FormOptions {
 };
 
 struct FormResult {
-  Status status;                    ///< not converged: no start reached g = 0 with its gradient along u
+  Status status;                    ///< not converged: no start reached g = 0 at a point where the gradient is parallel to u
   std::vector<DesignPoint> points;  ///< all that were found, nearest first
   double probability = 0.0;         ///< Phi(-beta) of the nearest
   int calls = 0;                    ///< of g
-  bool strong_maximum = false;      ///< one point alone has that importance, as far as the test can tell
-  double level_reached = 0.0;       ///< probability with which the test would have found one, given the calls that it used
+  bool strong_maximum = false;      ///< true: no second point has that importance, as far as the test can tell
+  double level_reached = 0.0;       ///< probability with which the test would have found a second point
 };
 
 /// First-order reliability method: beta by the improved Hasofer-Lind-Rackwitz-Fiessler iteration with Armijo's rule on the
-/// merit 0.5 |u|² + c |g|, from several starts. Then the strong-maximum test: points on a sphere a little farther than beta,
-/// away from the design points, are asked whether they exceed the limit; from one that does a search starts.
+/// merit 0.5 |u|² + c |g|, from several starts. Then the strong-maximum test: it evaluates g at points of a sphere a little
+/// larger than beta, away from the design points. From each point that exceeds the limit a search starts.
 /// @param n  dimension of u
 /// @throws InputError  if the limit is exceeded, or is not, at the origin and at every start
 /// References: Zhang and Der Kiureghian (1995), IFIP WG 7.5, 297-304; Dutfoy and Lebrun (2007), Comptes Rendus Mecanique 335,

@@ -24,7 +24,6 @@ using Eigen::VectorXd;
 
 namespace {
 
-/// In the order of LawKind.
 constexpr std::array<const char*, 5> kLaws = {"normal", "lognormal", "uniform", "gumbel", "weibull"};
 
 /// Two parameters of a law from its mean and deviation: location and scale, scale and shape, or the two ends.
@@ -114,7 +113,7 @@ double value_at(const RandomInput& input, double z) {
   const bool upper = z > 0.0;
   const double beyond_low = input.low ? probability(input, *input.low, upper) : (upper ? 1.0 : 0.0);
   const double beyond_high = input.high ? probability(input, *input.high, upper) : (upper ? 0.0 : 1.0);
-  // share of the law between the end and x: from the upper end for z > 0, from the lower end otherwise
+  // Share of the law between one end and x. For z > 0 it is counted from the upper end, otherwise from the lower.
   const double end = upper ? beyond_high : beyond_low, width = std::abs(beyond_high - beyond_low);
   const double share = std::clamp(end + width * normal_tail(std::abs(z)), 1e-300, 1.0 - 1e-16);
   const double x = quantile_of(input, share, upper);

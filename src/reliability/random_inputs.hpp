@@ -26,19 +26,20 @@ struct RandomInput {
   std::string source;               ///< where mean and deviation come from
 };
 
-/// Random inputs as functions of independent standard normal numbers u (Rosenblatt's transformation of a Gaussian copula):
-/// z = L u with the correlations L L', x_i = F_i^-1(Phi(z_i)). Inputs with a deviation of zero take no number.
+/// Random inputs as functions of independent standard normal numbers u (Rosenblatt's transformation of a Gaussian copula): z =
+/// L u with the correlations L L', x_i = F_i^-1(Phi(z_i)). Inputs with a deviation of zero are constants and have no number in
+/// u.
 /// Reference: Der Kiureghian and Liu (1986), J. Eng. Mech. 112, 85-104; Lebrun and Dutfoy (2009), Prob. Eng. Mech. 24, 312-320.
 class RandomVector {
  public:
   /// @param correlation  (n × n) of z in the order of `inputs`; empty: independent
   /// @throws InputError  with the input's name: a deviation below zero, ends in the wrong order or without probability between
-  /// them, a law that its mean excludes; a correlation matrix that is not positive definite
+  ///         them, a mean that the law cannot have; a correlation matrix that is not positive definite
   explicit RandomVector(std::vector<RandomInput> inputs, const Eigen::MatrixXd& correlation = {});
 
   [[nodiscard]] Eigen::Index dimension() const { return std::ssize(random_); }  ///< of u
   [[nodiscard]] const std::vector<RandomInput>& inputs() const { return inputs_; }
-  /// Name of the input that number k of u moves (the last one, where inputs are correlated).
+  /// Name of the input that u_k moves. If inputs are correlated, it is the last one that u_k moves.
   [[nodiscard]] const std::string& name(Eigen::Index k) const { return inputs_[random_[static_cast<std::size_t>(k)]].name; }
   /// @param u  (dimension()) standard normal numbers  @return (n) values of all inputs, fixed ones too
   [[nodiscard]] Eigen::VectorXd values(const Eigen::Ref<const Eigen::VectorXd>& u) const;

@@ -47,8 +47,8 @@ class Chains {
     return u;
   }
 
-  /// Random order: the step of the chains is adapted from chain to chain, and a step that depends on the value of the seed
-  /// would leave the conditional distribution.
+  /// Puts the seeds into random order. The step is adapted from chain to chain; if it depended on the value of the seed, the
+  /// samples would leave the conditional distribution.
   void shuffle(std::vector<Index>& order) {
     for (std::size_t i = order.size(); i > 1; --i) {
       const double share = uniform_number(options_.seed, stream_, i);
@@ -66,7 +66,7 @@ class Chains {
     return level;
   }
 
-  /// Chains from the seeds, all samples at or below `limit`.
+  /// Chains from the seeds. All their samples are at or below `limit`.
   Level next(const MatrixXd& seeds, const VectorXd& values, double limit) {
     const Index n_seeds = seeds.cols(), length = options_.samples / n_seeds;
     Level level{MatrixXd(n_, n_seeds * length), VectorXd(n_seeds * length), length};
@@ -179,7 +179,7 @@ SubsetResult subset_simulation(const LimitState& g, Index n, const SubsetOptions
 bool hidden_region(const SubsetResult& subset, const LimitState& g, const Eigen::Ref<const VectorXd>& design_point,
                    std::uint64_t seed) {
   constexpr int points = 200;         ///< their scatter is 3.5 % of Phi(-beta) at most
-  constexpr double deviations = 3.0;  ///< of the logarithm, from which a region counts as missed
+  constexpr double deviations = 3.0;  ///< of the logarithm; above this a region counts as missed
   const double beta = design_point.norm(), half_space = normal_tail(beta);
   const VectorXd along = design_point / beta;
   int failed = 0;

@@ -9,14 +9,14 @@
 
 namespace twindeck::reliability {
 
-/// What random inputs change of a bridge in wind.
+/// Changes of a bridge in wind by its random inputs.
 struct WindVariation {
   Eigen::VectorXd parameter_change;  ///< (n_parameters) from the model's values, in the parameters' units
   double damping_ratio = 0.0;        ///< [-] structural, of every mode
   double aerodynamic_factor = 1.0;   ///< [-] of the aerodynamic set's level
   double damper_factor = 1.0;        ///< [-] of each damper's stiffness and damping
   double turbulence_factor = 1.0;    ///< [-] of the standard deviations of v' and w'
-  double corrosion_factor = 1.0;     ///< [-] of the rate of corrosion: the loss of years is in the model already
+  double corrosion_factor = 1.0;     ///< [-] of the rate of corrosion; the model already has its loss at 1
 };
 
 /// A reduced structure whose parameters change within its own basis V:

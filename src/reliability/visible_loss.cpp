@@ -39,8 +39,8 @@ double wall_of(const fe::Model& model, const Wall& wall) {
   return least;
 }
 
-/// Changes of ln f of the monitored modes over their deviations and the root of two. Each mode is followed by the coordinate of
-/// the modes before in which it is largest.
+/// Changes of ln f of the monitored modes, divided by their deviations and by the root of two. After the loss, a monitored mode
+/// is the one with the largest component of the mode before.
 VectorXd weighed_change(const fe::Model& model, const MatrixXd& modes, const VectorXd& frequency_Hz, Wall wall, double loss_m,
                         const std::vector<MonitoredMode>& monitored) {
   wall.corrosion = {loss_m, 1.0, 0.0};  // all of it in one year
@@ -60,7 +60,7 @@ VectorXd weighed_change(const fe::Model& model, const MatrixXd& modes, const Vec
   return out;
 }
 
-/// Distance of a direction from the span of others [-], per unit of its own length.
+/// Distance of a direction from the span of others, over the length of the direction [-].
 double apart(const VectorXd& direction, const std::vector<VectorXd>& others) {
   MatrixXd span(direction.size(), std::ssize(others));
   for (Index i = 0; i < span.cols(); ++i) span.col(i) = others[static_cast<std::size_t>(i)].normalized();
@@ -85,7 +85,7 @@ std::vector<VisibleLoss> visible_losses(const fe::Model& model, const MatrixXd& 
     double loss = kFirstShare * found.wall_m;
     VectorXd change = weighed_change(model, modes, frequency_Hz, wall, loss, monitored);
     directions[static_cast<std::size_t>(at)] = change;
-    double power = 1.0;  // of the distance in the loss, from the last two of them
+    double power = 1.0;  // of the distance as a function of the loss, from the last two losses
     for (int step = 0; step < kMostSteps && std::abs(change.norm() / seen - 1.0) > kWidth; ++step) {
       const double before = change.norm();
       const double next = std::min(most, before > 0.0 ? loss * std::pow(seen / before, 1.0 / power) : most);

@@ -15,7 +15,7 @@ namespace {
 
 /// EN 1991-1-4:2005, 4.2 (2) note 4: parameters of the probability factor.
 constexpr double kCodeK = 0.2, kCodeN = 0.5, kCodeAnnual = 0.98;
-/// Classes of a Weibull law go on until this share of the time is left.
+/// [-] Share of the time above the last class of a Weibull law.
 constexpr double kLeftOut = 1e-12;
 /// [-] printed tables are rounded to three digits.
 constexpr double kSumTolerance = 1e-3;

@@ -21,7 +21,7 @@ struct WindLaw {
   [[nodiscard]] bool of_all_means() const { return kind == Kind::weibull || kind == Kind::table; }
   /// P(V > v): of a ten-minute mean, or of the largest of a year.
   [[nodiscard]] double exceedance(double speed_m_s) const;
-  /// Mean over the law's speeds of what a speed gives, by classes of `step_m_s` (the table's own classes for a table).
+  /// Mean of `of_speed` over the law, by classes of `step_m_s` [m/s] (a table has its own classes).
   [[nodiscard]] double average(const std::function<double(double speed_m_s)>& of_speed, double step_m_s = 0.5) const;
 };
 

@@ -6,12 +6,12 @@
 
 #include "fe/model.hpp"
 
-/// What years and faults make of a model.
+/// Models after years in service and with faults.
 namespace twindeck::reliability {
 
-/// Atmospheric corrosion of a steel surface: loss D(t) = r t^b up to 20 years, then on with the slope of that time, r b
-/// 20^(b-1). A coating keeps the steel as it is until its life is over. Reference: ISO 9224:2012, 6 (b of carbon steel 0.523,
-/// upper bound 0.575); first years' rates r by category: ISO 9223:2012, table 2.
+/// Atmospheric corrosion of a steel surface: loss D(t) = r t^b up to 20 years. After that the loss grows linearly with the
+/// slope at 20 years, r b 20^(b-1). While a coating lasts, there is no loss. Reference: ISO 9224:2012, 6 (b of carbon steel
+/// 0.523, upper bound 0.575); first years' rates r by category: ISO 9223:2012, table 2.
 struct Corrosion {
   double first_year_m = 0.0;  ///< r: loss of thickness of the first year
   double exponent = 0.523;    ///< b [-]
@@ -25,10 +25,10 @@ struct Corrosion {
 /// Sections whose steel corrodes alike.
 struct Wall {
   std::vector<std::string> sections;  ///< names in sections.csv
-  double thickness_m = 0.0;           ///< of the wall; 0: round ropes or rods of the sections' own areas
+  double thickness_m = 0.0;           ///< of the wall; 0: round ropes or rods, diameters from the areas of the sections
   int sides = 1;                      ///< 1 or 2 surfaces of the wall that corrode
   Corrosion corrosion;
-  /// What is left of a section's area after so many years [-]. @throws InputError  if nothing is left
+  /// Remaining share of a section's area after some years in service [-]. @throws InputError  if nothing is left
   [[nodiscard]] double remaining(const fe::Section& section, double years) const;
 };
 
@@ -37,9 +37,9 @@ struct Wall {
 /// @throws InputError  for a section that the model does not have, and as `Wall::remaining`
 [[nodiscard]] fe::Model worn_model(fe::Model model, const std::vector<Wall>& walls, double years);
 
-/// What can become of a damper: it is taken out, or static friction holds it, so that only the spring in series with it yields.
+/// Fault of a damper: it is taken out, or static friction holds it, so that only the spring in series with it deforms.
 enum class DamperFault { lost, held };
-/// @param held_stiffness_N_m  of a held damper that has no spring in series: of its mounts
+/// @param held_stiffness_N_m  of the mounts of a held damper that has no spring in series
 /// @throws InputError  for a damper that the model does not have
 [[nodiscard]] fe::Model with_damper_fault(fe::Model model, const std::string& damper, DamperFault fault,
                                           double held_stiffness_N_m);

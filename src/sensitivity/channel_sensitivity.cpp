@@ -21,14 +21,14 @@ using linalg::product;
 using linalg::subtract_product;
 using linalg::symmetric_product;
 
-constexpr double kAdjointTolerance = 1e-7;  ///< of an adjoint vector's residual, in the M norm
+constexpr double kAdjointTolerance = 1e-7;  ///< residual of an adjoint vector, in the M norm
 constexpr int kMostBlocks = 100;            ///< far above what sensors of a structure need (six to twelve)
 
 /// Effect of a parameter on the modes: right-hand sides of Nelson's equations, and their solution in the span of the modes.
 struct ModalForces {
-  MatrixXd force;  ///< (n × n_modes)  -(dK - lambda_i dM) phi_i; the term of dlambda_i lies along M phi_i
-  MatrixXd along;  ///< (n_modes × n_modes) part of dphi_i along phi_j: phi_j' force_i / (lambda_j - lambda_i); inside a
-                   ///< cluster and for j = i what the normalisation fixes, -1/2 phi_j' dM phi_i
+  MatrixXd force;  ///< (n × n_modes)  -(dK - lambda_i dM) phi_i, without the term of dlambda_i, which is parallel to M phi_i
+  MatrixXd along;  ///< (n_modes × n_modes) part of dphi_i along phi_j: phi_j' force_i / (lambda_j - lambda_i). For j = i and
+                   ///< inside a cluster the normalisation gives -1/2 phi_j' dM phi_i
 };
 
 /// @param cluster_gap  relative difference of eigenvalues that are taken as equal
@@ -66,12 +66,12 @@ double factorize_shifted(linalg::SparseMatrix& stiffness, const linalg::SparseMa
 
 /// Adjoint vectors of all modes in one basis: y_i = Y0 + V Z_i.
 struct Adjoint {
-  MatrixXd statics;         ///< Y0 = A⁻¹ P'C (n × n_channels), P' taking off what the modes carry
+  MatrixXd statics;         ///< Y0 = A⁻¹ P'C (n × n_channels); P' removes the part in the modes
   MatrixXd basis;           ///< V (n × r) M-orthonormal, M-orthogonal to the modes
   std::vector<MatrixXd> z;  ///< (n_modes) Z_i (r × n_channels)
 };
 
-/// Rows with an entry: a parameter's force acts on its own elements alone, a damper's on two nodes.
+/// Rows with an entry. The force of a parameter acts on its own elements only, that of a damper on two nodes.
 std::vector<Index> rows_in_use(const MatrixXd& force) {
   std::vector<Index> rows;
   const VectorXd size = force.rowwise().lpNorm<Eigen::Infinity>();
@@ -125,14 +125,14 @@ class AdjointSpace {
   }
 
  private:
-  /// A⁻¹ B, and nothing of rounding along the modes.
+  /// A⁻¹ B without its part in the modes, which is rounding.
   MatrixXd from_mass(const MatrixXd& b) const {
     MatrixXd x = factor_.solve(b);
     subtract_product(modes_.shapes, product(mass_shapes_, x, true), x);
     return x;
   }
 
-  /// Z of every mode; whether all are good enough. `size`: M-norms of the static parts.
+  /// Z of every mode. @param size  M-norms of the static parts @return whether all residuals are within the tolerance
   bool solve_small(const MatrixXd& h, const MatrixXd& start, const MatrixXd& coupling, const VectorXd& size,
                    std::vector<MatrixXd>& z) const {
     z.clear();
@@ -174,7 +174,7 @@ std::vector<MatrixXd> channel_shape_derivatives(const fe::ParametricSystem& syst
       const MatrixXd force = forces.force(rows, Eigen::all);
       derivative = product(adjoint.statics(rows, Eigen::all), force, true);
       share = product(adjoint.basis(rows, Eigen::all), force, true);
-    } else {  // taking rows out of the basis would cost more than the zeros
+    } else {  // here the zeros cost less than taking rows out of the basis
       derivative = product(adjoint.statics, forces.force, true);
       share = product(adjoint.basis, forces.force, true);
     }

@@ -28,7 +28,7 @@ std::vector<int> columns_of_entries(const linalg::SparseMatrix& pattern) {
 VectorXd quadratic_forms(const linalg::SparseMatrix& pattern, const fe::Term& term, const std::vector<int>& column,
                          const MatrixXd& shapes_by_dof) {
   const int* row = pattern.innerIndexPtr();
-  // Entries of one column together: sum over rows first, then times the column's own shape values.
+  // First the sum over the rows of one column, then times the column's own shape values.
   VectorXd form = VectorXd::Zero(shapes_by_dof.rows()), sum = form;
   int open = -1;
   const auto close = [&] {
@@ -47,8 +47,8 @@ VectorXd quadratic_forms(const linalg::SparseMatrix& pattern, const fe::Term& te
   return form;
 }
 
-/// Adds sign_i · (d coefficient / d theta_p) · phi_i' K_g phi_i of every term to (n_modes × n_parameters). Terms side by side,
-/// each summed by one thread.
+/// Adds sign_i · (d coefficient / d theta_p) · phi_i' K_g phi_i of every term to (n_modes × n_parameters). The terms run in
+/// parallel; each is summed by one thread.
 void add_terms(const fe::ParametricSystem& system, const std::vector<fe::Term>& terms, const std::vector<int>& column,
                const VectorXd& theta, const MatrixXd& shapes_by_dof, const VectorXd& sign, MatrixXd& sum) {
   std::vector<VectorXd> forms(terms.size());

@@ -13,7 +13,6 @@
 namespace twindeck::sensitivity {
 namespace {
 
-// Frequencies of the reference modes in a perturbed system.
 class PerturbedFrequencies {
  public:
   PerturbedFrequencies(const fe::ParametricSystem& system, const matching::ModeFollower& follower, const Eigen::VectorXd& theta,
@@ -43,8 +42,8 @@ class PerturbedFrequencies {
   int n_modes_;
 };
 
-// A step that moves the most sensitive frequency by the change aimed at: small enough for close modes, large enough for a
-// parameter that hardly matters to stand above rounding.
+// Step that changes the most sensitive frequency by `frequency_change`. The step is small enough for close modes. For a
+// parameter that hardly matters it is large enough to stand above rounding.
 double central_step(const Sensitivities& known, const Eigen::MatrixXd& relative, int parameter,
                     const SensitivityOptions& options) {
   const double strongest = relative.col(parameter).cwiseAbs().maxCoeff();
@@ -83,7 +82,7 @@ Sensitivities frequency_sensitivities(const fe::ParametricSystem& system, const 
     out.scale(p) = theta(p) != 0.0 ? std::abs(theta(p)) : std::max(parameter.upper - parameter.lower, 1e-12);
   }
 
-  // A few more are followed than shown, so that a mode pushed up by a step is still among them.
+  // Three modes more than shown are solved for, so that a mode raised by a step is still among them.
   int n_solved = std::min(options.n_modes + 3, static_cast<int>(system.size()));
   dynamics::ModalSolver solver(system);
   dynamics::EigenModes modes = solver.solve(theta, n_solved);

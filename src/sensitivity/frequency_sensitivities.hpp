@@ -21,7 +21,7 @@ struct SensitivityOptions {
 /// modes are followed by mass-weighted MAC.
 struct Sensitivities {
   Eigen::VectorXd frequency_Hz;  ///< (n_modes)
-  Eigen::VectorXd theta;         ///< (n_parameters) where they were taken
+  Eigen::VectorXd theta;         ///< (n_parameters) values at which the derivatives are taken
   Eigen::VectorXd scale;         ///< (n_parameters) |p|, or the range where p = 0
   Eigen::MatrixXd exact;         ///< df_i/dp_j = phi_i'(dK - lambda_i dM)phi_i / (8 pi² f_i)
   Eigen::MatrixXd richardson;    ///< central differences D(h), D(h/2) extrapolated: (4 D(h/2) - D(h))/3, error O(h⁴)
@@ -41,9 +41,8 @@ struct Sensitivities {
                                                     const std::function<void(int done, int of)>& progress);
 
 /// @param source  the model, for the message
-/// @throws InputError  if a mode has no frequency to change: a free structure, or one beside whose largest mass or stiffness
-/// the
-///         rest is rounding
+/// @throws InputError  if a mode has no frequency that could change: the structure is free, or one mass or stiffness is so
+///         large that the rest is rounding beside it
 void refuse_rigid_bodies(const Sensitivities& found, const std::string& source);
 
 /// A of selection.hpp: shift of each compared frequency, in its standard deviations, over half the range of each parameter [-]

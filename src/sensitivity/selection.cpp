@@ -9,7 +9,7 @@
 namespace twindeck::sensitivity {
 namespace {
 
-// The kept parameter whose column points most nearly along that of `p`.
+// The kept parameter whose column is most nearly parallel to that of `p`.
 int most_alike(const Eigen::MatrixXd& a, const std::vector<SelectedParameter>& fate, Eigen::Index p) {
   int nearest = -1;
   double best = -1.0;
