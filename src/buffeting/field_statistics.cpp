@@ -85,7 +85,7 @@ std::vector<FieldCheck> FieldStatistics::checks() const {
 
     double error = 0.0, difference = 0.0;
     Index pairs = 0;
-    // The window smears the steep first bins and, two to each side, the edge at the cutoff, above which there is nothing.
+    // Left out: the first bins and those next to the cutoff, because the window smears the spectrum there.
     const double cutoff = any.spacing_Hz() * static_cast<double>(any.n_waves());
     const Index first = 4, edge = static_cast<Index>(cutoff / rate_Hz_ * static_cast<double>(segment_)) - 3;
     const Index last = std::max(first, std::min(edge, bins - 3));

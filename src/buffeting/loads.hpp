@@ -57,7 +57,7 @@ class Gusts {
   /// @return [m/s] (n_steps × n_components n_strips) in the order of the load's columns. With double-indexed frequencies a
   /// sample does not repeat after the record: the steps of the run-up come first
   [[nodiscard]] Eigen::MatrixXd sample(std::uint64_t seed) const;
-  /// One a component. Their samples are those of `sample`.
+  /// One simulator for each component, with the same samples as `sample`.
   [[nodiscard]] const std::vector<wind::Simulator>& simulators() const { return simulators_; }
   [[nodiscard]] Eigen::Index before() const { return before_; }
 

@@ -11,12 +11,12 @@
 
 namespace twindeck::buffeting {
 
-/// An RMS two ways, of the vertical acceleration at a monitoring point.
+/// RMS of the vertical acceleration at a monitoring point, computed in two ways.
 struct TimeCheck {
   std::string name, channel;
   double reference_m_s2 = 0.0, found_m_s2 = 0.0, allowed_pct = 1.0;
 };
-/// An event and a run in it, whose wind the bridge stands.
+/// An event and a run in it that is stable at the wind speed of the event.
 struct CheckedCase {
   WindEvent event;
   ValidationRun run;

@@ -39,7 +39,7 @@ constexpr double known_factor_within = 1.15;  ///< [-] of the factor of a slip, 
 constexpr int fewest_ratios = 3;              ///< two ratios agree by chance
 constexpr double gravity_m_s2 = 9.80665;
 constexpr double gravity_in_s2 = 386.0886;  ///< [in/s2]
-/// Densest material of structures is tungsten; what stands above is a weight per volume, or kilograms among tonnes.
+/// Tungsten, the densest structural material, lies below. A larger number is a weight per volume, or kilograms among tonnes.
 constexpr double densest_kg_m3 = 23000.0;
 /// Timber weighs 3.4 to 9.8 kN/m3 and has a modulus of 7 to 20 GPa; lead, which is as slow with that density, weighs more.
 constexpr Band timber_weight_N_m3{3400.0, 9810.0};
@@ -97,7 +97,7 @@ double off_known(double density_kg_m3, double speed_m_s) {
   return least;
 }
 
-/// A unit of weight per volume, or another unit of mass, in which a density may be.
+/// A unit in which a density may have been given by mistake: weight per volume, or another unit of mass.
 struct WeightUnit {
   double density_kg_m3;                    ///< of one of it
   const char* name;                        ///< "lbf/in3"

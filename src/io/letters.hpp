@@ -5,7 +5,7 @@
 #include <string>
 #include <string_view>
 
-/// Text in one case, for words that files write in any: letters of ASCII alone change.
+/// Text in upper or lower case, for comparing words of files. Only ASCII letters change.
 namespace twindeck::io {
 
 /// The text without blanks at its ends.

@@ -47,7 +47,7 @@ bool minimise_within_thresholds(const Eigen::VectorXd& shift_N, const Eigen::Mat
     for (Index i = 0; i < n; ++i) {
       if (side[static_cast<std::size_t>(i)] == 0.0) stuck.push_back(i);
     }
-    // 1. Towards the balance of the stuck units, as far as the first threshold.
+    // 1. The forces of the stuck units move towards balance, until the first of them reaches its threshold.
     if (!stuck.empty()) {
       const auto size = static_cast<Index>(stuck.size());
       Eigen::VectorXd sliding = force_N;

@@ -101,7 +101,7 @@ void Simulator::put_waves(std::uint64_t seed, MatrixXd& velocity) const {
     Drift first;
   };
   const auto room = [n] { return Room{std::vector<double>(static_cast<std::size_t>(2 * kLanes * n)), {}}; };
-  constexpr std::ptrdiff_t kStretches = 8;  // at a time: neighbours write side by side
+  constexpr std::ptrdiff_t kStretches = 8;  // taken by a thread at a time, so that it writes adjacent memory
   const auto put_stretch = [&](Room& own_room, std::size_t k) {
     auto& [wave, first] = own_room;
     const Stretch& at = stretch_[k];
@@ -109,7 +109,7 @@ void Simulator::put_waves(std::uint64_t seed, MatrixXd& velocity) const {
       double* own = wave.data() + 2 * kLanes * m;
       waves(seed, m, at.first, own, own + kLanes);
     }
-    std::optional<FactorPair> made;  // a factor at every frequency: twice the memory for pairs would be no good
+    std::optional<FactorPair> made;  // used with a factor at every frequency, where stored pairs would double the memory
     if (pair_.empty()) made.emplace(factor_[at.pair], factor_[at.pair + 1]);
     const FactorPair& factor = made ? *made : pair_[at.pair];
     WaveLanes lanes{};
