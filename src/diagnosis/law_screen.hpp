@@ -9,7 +9,7 @@ namespace twindeck::diagnosis {
 /// the class.
 constexpr double kLeft = 0.1;
 
-/// That scale. @param effect  RMS change of the frequencies by the cause, ln
+/// Scale of the unexplained change. @param effect  RMS change of ln(frequency) by the cause
 [[nodiscard]] double left_scale(double effect);
 
 /// RMS change of the frequencies in the conditions where a cause acts.

@@ -181,7 +181,7 @@ constexpr double kMixtureBeside = 0.49;
 double outside_span(const Eigen::VectorXcd& shape, const Eigen::VectorXcd& first, const Eigen::VectorXcd& second) {
   const Eigen::VectorXcd a = first.normalized();
   Eigen::VectorXcd b = second - a * a.dot(second);
-  constexpr double kParallel = 1e-6;  // two shapes that are one span a line
+  constexpr double kParallel = 1e-6;  // smaller second shapes are parallel to the first
   b = b.norm() > kParallel ? Eigen::VectorXcd(b.normalized()) : Eigen::VectorXcd::Zero(b.size());
   return std::max(0.0, 1.0 - (std::norm(a.dot(shape)) + std::norm(b.dot(shape))) / shape.squaredNorm());
 }

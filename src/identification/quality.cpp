@@ -18,10 +18,10 @@ namespace {
 constexpr double kLeastDeviations = 10.0;  // a sample nearer than this belongs to the normal distribution of the record
 constexpr Index kLongest = 3;              // samples in a row
 constexpr Index kAround = 10;              // samples on each side that are compared
-constexpr double kQuiet = 1.0 / 20.0;      // of the distance; a filtered pulse leaves more, a jerk of a shaking table a tenth
-constexpr double kSame = 0.5;              // of the distance; samples above it belong to the same group
-constexpr Index kDrawn = 65536;            // samples for the median
-constexpr double kNormal = 1.4826;         // deviation of a normal distribution over its median absolute deviation
+constexpr double kQuiet = 1.0 / 20.0;  // of the distance; beside a filtered pulse neighbours have more, on a shaking table 0.1
+constexpr double kSame = 0.5;          // of the distance; samples above it belong to the same group
+constexpr Index kDrawn = 65536;        // samples for the median
+constexpr double kNormal = 1.4826;     // deviation of a normal distribution over its median absolute deviation
 
 /// The existing samples. In a long record, a random draw gives the median to a hundredth of a deviation. The seed is fixed.
 /// Evenly spaced samples could fall into step with a sine.

@@ -30,8 +30,8 @@ struct PoleFactors {
 /// Standard deviation of a pole's frequency [Hz]. @param pole  of the models
 [[nodiscard]] double frequency_deviation(const ShiftModels& models, const PoleFactors& factors, const Pole& pole);
 
-/// Standard deviation of the difference of two poles' frequencies [Hz], with their correlation: the halves of a split pole move
-/// against each other.
+/// Standard deviation of the difference of two poles' frequencies [Hz]. Their correlation counts: the halves of a split pole
+/// move in opposite directions.
 [[nodiscard]] double difference_deviation(const ShiftModels& models, const PoleFactors& factors, const Pole& pole,
                                           const Pole& other);
 

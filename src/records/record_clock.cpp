@@ -20,7 +20,7 @@ constexpr double kRowsOfALag = 50.0;    ///< least rows between two shared stamp
 constexpr double kEvenSlopes = 0.2;     ///< [-] quartile range of slopes over their median; below it most slopes contain no gap
 constexpr std::size_t kWidest = 64;     ///< largest number of stamps that the envelope looks ahead and back
 constexpr std::size_t kStretch = 32;    ///< stamps of a stretch; gaps in half of them mean another rate
-constexpr double kSharesOfADay = 0.02;  ///< of a day: a step back from the last to the first such part of a day is midnight
+constexpr double kSharesOfADay = 0.02;  ///< of a day: a step back from its last to its first 2 % is midnight
 
 double quantile(std::vector<double> values, double share) {
   if (values.empty()) return 0.0;

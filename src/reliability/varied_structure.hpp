@@ -33,7 +33,7 @@ class VariedStructure {
   struct Varied {
     aero::ReducedStructure structure;
     std::vector<aero::StripMotion> motions;
-    Eigen::MatrixXd turn;  ///< (m × m) old coordinates by the new ones: rows of sensors are multiplied by it
+    Eigen::MatrixXd turn;  ///< (m × m) old coordinates = turn · new ones; rows of sensors are multiplied by it
   };
   [[nodiscard]] Varied at(const WindVariation& variation) const;
 

@@ -74,7 +74,7 @@ constexpr int n_data_kinds = 4;
 /// masses; max(0, |displacement| - limit) / std for displacements.  (n_rows) in the order of kinds_of_rows
 [[nodiscard]] Eigen::VectorXd deviations(const StructureAnswer& answer, const StructureData& data);
 
-/// Change of the deviations with the answer, to first order: `change` holds derivatives of the answer's quantities.  (n_rows)
+/// Derivatives of the deviations (n_rows), from the derivatives `change` of the quantities of the answer.
 [[nodiscard]] Eigen::VectorXd deviation_changes(const StructureAnswer& answer, const StructureAnswer& change,
                                                 const StructureData& data);
 

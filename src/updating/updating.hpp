@@ -70,7 +70,7 @@ struct SmoothCheck {
 /// A target that was left out of the updating, with its prediction from the others.
 struct LeftOut {
   Eigen::VectorXd theta;      ///< (n_active) in the parameters' units
-  double frequency_Hz = 0.0;  ///< of the left-out target's mode there: nothing was fitted to it
+  double frequency_Hz = 0.0;  ///< prediction for the left-out target, at `theta`
   double cost = 0.0;          ///< of the fitted targets
   double followed_mac = 0.0;  ///< of the left-out mode with the start model's
   int on_bounds = 0;          ///< parameters that end on a bound

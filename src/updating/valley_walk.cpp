@@ -15,7 +15,7 @@ using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
 constexpr double cost_left = 1e-6;     // [-] difference of equal costs; ends of one optimum differ by 1e-8
-constexpr double equally_near = 1e-6;  // [ranges] as `bound_tolerance`: nobody reads parameters more closely
+constexpr double equally_near = 1e-6;  // [ranges] distance of parameters that count as equal, as `bound_tolerance`
 constexpr double least_ridge = 1e-9;   // [-] of the largest singular value; the ridge shifts the point by as little
 
 double largest_singular_value(const MatrixXd& per_range) {

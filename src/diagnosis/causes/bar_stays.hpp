@@ -33,7 +33,7 @@ struct BarStays {
   double log_odds = 0.0;       ///< with the stays' own measured frequencies too
   ExplanationRule rule;
   fe::Model extended;      ///< the model with these stays as cables of `cable_pieces`
-  int modes_in_basis = 0;  ///< number of its modes in the band of `modes` / 2 modes of the reduced model with bars
+  int modes_in_basis = 0;  ///< number of its modes up to the middle mode of the reduced model with bars
   int modes_in_band = 0;   ///< number of its modes below the highest measured frequency
 };
 

@@ -14,7 +14,7 @@ struct LawSystem {
   Eigen::MatrixXd sigma;                 ///< Sigma_0 (n_rows × n_rows)
   std::vector<Eigen::MatrixXd> classes;  ///< D_c (n_rows × n_c each)
   Eigen::VectorXd residual;              ///< r (n_rows)
-  Eigen::MatrixXd signatures;            ///< of causes, one column each (n_rows × n_signatures)
+  Eigen::MatrixXd signatures;            ///< (n_rows × n_signatures) change of the rows by each cause
   double log_prior = 0.0;                ///< ln prior of the modes that the system holds for none of the model's
 };
 

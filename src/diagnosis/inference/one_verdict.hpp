@@ -15,7 +15,7 @@ struct PossibleAnswer {
   bool something_else = false;
 };
 
-/// [-] Probability of the set of answers. It is also the probability of a cause above which there is an answer.
+/// [-] Probability of the set of answers. The verdict is `none` unless "nothing" has less than the rest of 1.
 constexpr double kSetProbability = 0.95;
 
 struct Judgement {

@@ -115,8 +115,8 @@ CommonBasis::Held side_by_side(std::span<const CommonBasis::Held> blocks) {
   return out;
 }
 
-/// Responses K^-1 (change of K times given vectors). The strongest few beyond the basis of each change are kept, and of all
-/// these the strongest.
+/// Responses K^-1 (change of K times given vectors), beyond the basis. The strongest few of each change are candidates, and the
+/// strongest candidates are kept.
 /// @param scale  of each vector
 MatrixXd strongest_of(const CommonBasis& basis, const linalg::Cholesky& factor,
                       const std::vector<std::function<MatrixXd()>>& changes, const Eigen::VectorXd& scale,

@@ -12,7 +12,7 @@
 #include "records/measured_features.hpp"
 #include "runner/run_step.hpp"
 
-/// What a step takes of a measurement: the options that say which part, and the files that the part is in.
+/// The measured data of a step: the options that choose them, and the files that hold them.
 namespace twindeck::steps {
 
 /// `--condition NAME`, `--state NAME` and `--correct FILE`: the options of every step that reads measured modes or features.
