@@ -220,7 +220,7 @@ io::FieldTable IdentificationConfig::fields() {
       .number("cleaning.frequency", cleaning.frequency, "", io::positive(),
               "largest relative distance of two frequencies that count as the same")
       .number("cleaning.recursion", cleaning.recursion, "", io::non_negative(),
-              "paper Eq. (4): least recursion index of a mode")
+              "paper Eq. (4): recursion index that a mode must exceed")
       .number("cleaning.share", cleaning.share, "", {0.0, 1.0},
               "least share of orders with the mode, counted from its first order; 0: the paper's rule")
       .number("cleaning.deviation", largest_deviation, "", io::non_negative(),

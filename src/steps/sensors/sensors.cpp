@@ -52,7 +52,7 @@ io::FieldTable SensorsConfig::fields() {
       .number("cleaning.frequency", cleaning.frequency, "", io::positive(),
               "largest relative distance of two frequencies that count as the same")
       .number("cleaning.recursion", cleaning.recursion, "", io::non_negative(),
-              "paper Eq. (4): least recursion index of a mode")
+              "paper Eq. (4): recursion index that a mode must exceed")
       .rule([this] { return orders_exchanged("blind.", minimum_order, maximum_order); });
   return table;
 }
