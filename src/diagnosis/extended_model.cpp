@@ -100,6 +100,7 @@ bool of_support(const fe::Model& model, const fe::Spring& spring, std::string na
   static const std::string fixed = " fixed";
   const bool asked_rigid = name.ends_with(fixed);
   if (asked_rigid) name.resize(name.size() - fixed.size());
+  if (name == one_bearing(model, spring)) return !spring.is_damper() && spring.node2 < 0 && !rigid(spring);
   if (spring.is_damper() || spring.node2 >= 0 || group(spring) != name || (asked_rigid && !rigid(spring))) return false;
   if (asked_rigid || !rigid(spring)) return true;
   return std::none_of(model.springs.begin(), model.springs.end(),

@@ -1,5 +1,7 @@
 #include "diagnosis/law_search.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -135,6 +137,17 @@ void exchange_members(const LawSetting& setting, LawSearch& search) {
   }
 }
 
+/// Names of the families that an entry belongs to: its hypothesis, and this at places whose stiffness has the same parameters.
+std::vector<std::string> families_of(const Candidate& candidate) {
+  std::vector<std::string> out = {candidate.hypothesis->id};
+  if (candidate.places.size() != 1) return out;
+  std::string parameters;
+  for (const fe::ParameterFactor& factor : candidate.places.front()->stiffness_law.ratio.factors)
+    parameters += fmt::format(" {}", factor.parameter);
+  if (!parameters.empty()) out.push_back(out.front() + parameters);
+  return out;
+}
+
 /// Accounts that get a fit: the best ones and the best one of each family.
 std::vector<LawAccount*> leading_accounts(LawSearch& search, const std::set<int>& done) {
   const double best = search.accounts.front().log_weight, over = std::max(0.0, best - search.none.log_evidence);
@@ -144,23 +157,27 @@ std::vector<LawAccount*> leading_accounts(LawSearch& search, const std::set<int>
   };
   std::map<std::string, std::size_t> places;
   for (const LawAccount& account : search.accounts)
-    if (candidate_of(account)->further_states.empty()) ++places[candidate_of(account)->hypothesis->id];
+    if (candidate_of(account)->further_states.empty())
+      for (const std::string& family : families_of(*candidate_of(account))) ++places[family];
   std::set<std::string> families, wholly;
   std::vector<LawAccount*> out;
   const std::string leading_place = candidate_of(search.accounts.front())->location;
   for (std::size_t i = 0; i < search.accounts.size(); ++i) {
     LawAccount& account = search.accounts[i];
     const Candidate& candidate = *candidate_of(account);
-    const std::string& family = candidate.hypothesis->id;
-    const bool first_of_family = families.insert(family).second;
+    const bool first_of_family = !families.contains(candidate.hypothesis->id);
     // A family with few locations is fitted at all of them. The base may have fitted a common parameter to one location, and
     // the screen would then favour the opposite change at the others.
-    if (first_of_family && account.log_weight > search.none.log_evidence && places[family] <= kOfFewPlaces)
-      wholly.insert(family);
+    bool in_few_places = false;
+    for (const std::string& family : families_of(candidate)) {
+      if (families.insert(family).second && account.log_weight > search.none.log_evidence && places[family] <= kOfFewPlaces)
+        wholly.insert(family);
+      in_few_places = in_few_places || wholly.contains(family);
+    }
     const bool near_best = (i < kLeading || first_of_family) && account.log_weight > near;
     // Another family at the leader's location is its nearest rival; it is always fitted, because trial magnitudes are coarse.
     const bool same_place = candidate.location == leading_place && leading_place.find(':') != std::string::npos;
-    const bool worth = wholly.contains(family) || same_place || (near_best && out.size() < kMostLeading);
+    const bool worth = in_few_places || same_place || (near_best && out.size() < kMostLeading);
     if (worth && !done.contains(account.members.front())) out.push_back(&account);
   }
   return out;

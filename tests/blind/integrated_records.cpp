@@ -57,17 +57,19 @@ void apply(const Cause& cause, const Condition& condition, State& state) {
     const ReducedPlace& place = *cause.candidate->places[0];
     const auto value = [&](const char* name) { return cause.candidate->value(action.number.at(name), cause.a); };
     const auto own = [&](const diagnosis::ReducedMatrix& full) { return full.part(state.columns); };
-    if (action.primitive == Primitive::scale_stiffness) state.stiffness += (value("factor") - 1.0) * own(place.stiffness);
-    if (action.primitive == Primitive::scale_mass) state.mass += (value("factor") - 1.0) * own(place.mass);
-    if (action.primitive == Primitive::mass_add) {
+    if (action.primitive == diagnosis::Primitive::scale_stiffness)
+      state.stiffness += (value("factor") - 1.0) * own(place.stiffness);
+    if (action.primitive == diagnosis::Primitive::scale_mass) state.mass += (value("factor") - 1.0) * own(place.mass);
+    if (action.primitive == diagnosis::Primitive::mass_add) {
       const MatrixXd b = forces_of(place, state.columns);
       state.mass += value("mass") * b * b.transpose();
     }
-    if (action.primitive == Primitive::field_stiffness && condition.temperature_C)
+    if (action.primitive == diagnosis::Primitive::field_stiffness && condition.temperature_C)
       state.stiffness += value("rate") * (*condition.temperature_C - value("reference")) * own(place.stiffness);
-    if (action.primitive == Primitive::step_stiffness && condition.temperature_C && *condition.temperature_C < value("below"))
+    if (action.primitive == diagnosis::Primitive::step_stiffness && condition.temperature_C &&
+        *condition.temperature_C < value("below"))
       state.stiffness += (value("factor") - 1.0) * own(place.stiffness);
-    if (action.primitive == Primitive::element_spring && cause.candidate->places.size() == 2) {
+    if (action.primitive == diagnosis::Primitive::element_spring && cause.candidate->places.size() == 2) {
       const ReducedPlace& other = *cause.candidate->places[1];
       const VectorXd b =
           (forces_of(place, state.columns) - forces_of(other, state.columns)) * (other.x_m - place.x_m).normalized();
@@ -87,13 +89,14 @@ void add_damper(const ReducedPlace& damper, const std::vector<Cause>& causes, St
     if (cause.candidate->places.empty() || cause.candidate->places[0] != &damper) continue;
     for (const diagnosis::ActionSpec& action : cause.candidate->hypothesis->actions) {
       const auto value = [&](const char* name) { return cause.candidate->value(action.number.at(name), cause.a); };
-      if (action.primitive == Primitive::damper_absent) return;
-      if (action.primitive == Primitive::damper_damping) one.damping_N_s_m *= value("factor");
-      if (action.primitive == Primitive::damper_series || action.primitive == Primitive::damper_friction) {
+      if (action.primitive == diagnosis::Primitive::damper_absent) return;
+      if (action.primitive == diagnosis::Primitive::damper_damping) one.damping_N_s_m *= value("factor");
+      if (action.primitive == diagnosis::Primitive::damper_series ||
+          action.primitive == diagnosis::Primitive::damper_friction) {
         one.stiffness_N_m = value("stiffness");
         series = true;
       }
-      if (action.primitive == Primitive::damper_friction) one.friction_N = value("threshold");
+      if (action.primitive == diagnosis::Primitive::damper_friction) one.friction_N = value("threshold");
     }
   }
   const VectorXd b = damper.directions.part(0, state.columns);
@@ -202,10 +205,10 @@ void disturb(const std::vector<Cause>& causes, MatrixXd& acceleration) {
   for (const Cause& cause : causes)
     for (const diagnosis::ActionSpec& action : cause.candidate->hypothesis->actions) {
       const auto& at = cause.candidate->channels;
-      if (action.primitive == Primitive::channel_gain)
+      if (action.primitive == diagnosis::Primitive::channel_gain)
         acceleration.col(at[0]) *= cause.candidate->value(action.number.at("factor"), cause.a);
-      if (action.primitive == Primitive::channel_sign) acceleration.col(at[0]) *= -1.0;
-      if (action.primitive == Primitive::channel_swap) acceleration.col(at[0]).swap(acceleration.col(at[1]));
+      if (action.primitive == diagnosis::Primitive::channel_sign) acceleration.col(at[0]) *= -1.0;
+      if (action.primitive == diagnosis::Primitive::channel_swap) acceleration.col(at[0]).swap(acceleration.col(at[1]));
     }
 }
 

@@ -165,9 +165,10 @@ void FeatureMap::list_places(const ScatterOptions& scatter) {
                               scatter.fine * deviation, -kWorst, kWorst, set, mass});
   };
   const auto any = [](const ReducedPlace&) { return true; };
-  const auto is_flexible = [](const ReducedPlace& p) {  // a spring that replaces a rigid support has no meaningful size
+  // A spring that replaces a rigid support has no meaningful size. Several bearings have an error each.
+  const auto is_flexible = [](const ReducedPlace& p) {
     const auto high = p.attributes.find("f_high");
-    return high == p.attributes.end() || high->second > 1.0;
+    return (high == p.attributes.end() || high->second > 1.0) && !p.attributes.contains(kSeveralBearings);
   };
   add("zones", false, scatter.element_stiffness, any);
   add("zones", true, scatter.element_mass, any);

@@ -255,11 +255,7 @@ void ElementPlaces::add_supports(Places& places) const {
   };
   std::vector<Support> supports;
   std::map<std::string, std::size_t> position;
-  for (const fe::Spring& spring : model_.springs) {
-    if (spring.is_damper() || !fe::carries_stiffness(spring) || spring.node2 >= 0) continue;
-    const bool rigid = stands_for_rigid(spring);
-    std::string name = spring.support_name();
-    if (rigid && of_springs.contains(name)) name += " fixed";
+  const auto add = [&](const std::string& name, const fe::Spring& spring, bool rigid) {
     const auto [at, is_new] = position.try_emplace(name, supports.size());
     if (is_new) {
       const Eigen::Vector3d& x_m = model_.nodes[static_cast<std::size_t>(spring.node)].x_m;
@@ -268,6 +264,17 @@ void ElementPlaces::add_supports(Places& places) const {
     Support& support = supports[at->second];
     support.rigid = support.rigid || rigid;
     support.stiffness[spring.rotation ? 1 : 0].add(fe::spring_stiffness(spring));
+  };
+  const auto is_bearing = [](const fe::Spring& s) { return !s.is_damper() && fe::carries_stiffness(s) && s.node2 < 0; };
+  std::map<std::string, std::set<int>> nodes;  // of a group: springs of one property may be bearings far from each other
+  for (const fe::Spring& spring : model_.springs)
+    if (is_bearing(spring)) nodes[spring.support_name()].insert(spring.node);
+  for (const fe::Spring& spring : model_.springs) {
+    if (!is_bearing(spring)) continue;
+    const bool rigid = stands_for_rigid(spring);
+    const std::string& name = spring.support_name();
+    add(rigid && of_springs.contains(name) ? name + " fixed" : name, spring, rigid);
+    if (!rigid && nodes[name].size() > 1) add(one_bearing(model_, spring), spring, false);
   }
   for (const Support& support : supports) {
     for (const bool rotation : {false, true}) {
@@ -281,6 +288,7 @@ void ElementPlaces::add_supports(Places& places) const {
       place.attributes["f_soft"] = support.rigid ? 2e-5 : 0.25;
       place.attributes["f_stiff"] = support.rigid ? 5e-4 : 4.0;
       place.attributes["f_high"] = support.rigid ? 1e-2 : 30.0;
+      if (nodes.contains(support.name) && nodes[support.name].size() > 1) place.attributes[kSeveralBearings] = 1.0;
       places.sets[rotation ? "foundations" : "supports"].push_back(std::move(place));
     }
   }

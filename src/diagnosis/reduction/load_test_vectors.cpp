@@ -58,10 +58,13 @@ VectorXd translation(const fe::ParametricSystem& system, const Eigen::Vector3d& 
   return out;
 }
 
-const std::vector<Place>& supports_of(const Places& places) {
-  static const std::vector<Place> none;
-  const auto found = places.sets.find("supports");
-  return found == places.sets.end() ? none : found->second;
+/// Supports without the single bearings of those with several.
+std::vector<Place> supports_of(const Places& places) {
+  std::vector<Place> out;
+  if (const auto found = places.sets.find("supports"); found != places.sets.end())
+    std::ranges::copy_if(found->second, std::back_inserter(out),
+                         [](const Place& place) { return place.id.find(" at node ") == std::string::npos; });
+  return out;
 }
 
 std::string name_of_support(const Place& place) {
@@ -179,7 +182,7 @@ LoadTests load_tests_of(const Structure& structure, const Places& places, const 
     if (std::find(out.cases.begin(), out.cases.end(), load.load) == out.cases.end()) out.cases.push_back(load.load);
   if (out.empty()) return out;
   const Nodes nodes(structure);
-  const std::vector<Place>& supports = supports_of(places);
+  const std::vector<Place> supports = supports_of(places);
   const Index n = structure.system->size(), cases = static_cast<Index>(out.cases.size());
   out.force = MatrixXd::Zero(n, cases);
   MatrixXd moves = MatrixXd::Zero(n, cases);  // movements of the ground, as displacements of the free dofs that are held to it

@@ -256,7 +256,7 @@ PlaceInWords PlaceWords::support(const std::string& name) const {
     for (const fe::Support& s : model_->supports)
       if (s.name == name) points.push_back(model_->nodes[static_cast<std::size_t>(s.node)].x_m);
     for (const fe::Spring& s : model_->springs)
-      if (!s.is_damper() && (s.group == name || s.name == name))
+      if (!s.is_damper() && (s.group == name || s.name == name || one_bearing(*model_, s) == name))
         points.push_back(model_->nodes[static_cast<std::size_t>(s.node)].x_m);
   }
   return with_points("the support " + name, points);
