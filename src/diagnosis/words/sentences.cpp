@@ -335,15 +335,20 @@ std::string errors_of_held_out(const Gain& gain) {
       beside(", their MAC is {:.2f} and {:.2f}", &HeldOutMode::mac_before, &HeldOutMode::mac_after));
 }
 
+/// "25 % less (90 % interval 5 to 40 %)"; a misfit that grows is "10 % more", its interval too.
+std::string change_words(const Gain& gain) {
+  const bool grows = gain.reduction_pct < 0.0;
+  return fmt::format("{:.0f} % {} (90 % interval {:.0f} to {:.0f} %)", std::abs(gain.reduction_pct), grows ? "more" : "less",
+                     grows ? 0.0 - gain.high_pct : gain.low_pct, grows ? 0.0 - gain.low_pct : gain.high_pct);
+}
+
 std::string how_much_better_it_is(const Diagnosis& result) {
   if (result.effects.empty()) return "The model was not changed, so there is no gain to measure.";
   const Gain gain = told_gain(result);
   if (gain.rows == 0) return "No gain shown: no measured value was held out from the fit.";
-  const std::string numbers = fmt::format(
-      "on {} values, predicted without being fitted, the misfit goes from {:.2f} to {:.2f} standard deviations, {:.0f} % less "
-      "(90 % "
-      "interval {:.0f} to {:.0f} %)",
-      number_in_words(gain.rows, kCountDigits), gain.before, gain.after, gain.reduction_pct, gain.low_pct, gain.high_pct);
+  const std::string numbers =
+      fmt::format("on {} values, predicted without being fitted, the misfit goes from {:.2f} to {:.2f} standard deviations, {}",
+                  number_in_words(gain.rows, kCountDigits), gain.before, gain.after, change_words(gain));
   const std::string raw = errors_of_held_out(gain);
   if (shows_gain(gain)) return fmt::format("{}.{}{}", capitalised(numbers), raw.empty() ? "" : " ", capitalised(raw));
   if (frequencies_get_worse(gain)) return fmt::format("No gain: {} {}.", raw, capitalised(numbers));

@@ -187,6 +187,11 @@ TEST(ToldSentences, TheGainIsOfHeldOutRowsOrOfModesLeftOut) {
   result.gain.low_pct = 0.0;
   EXPECT_TRUE(told.said(result).how_much_better.starts_with("No gain shown: on 8 values, "))
       << told.said(result).how_much_better;
+  result.gain = {8, 2.0, 2.2, -10.0, -25.0, 4.0, "x"};
+  EXPECT_EQ(
+      told.said(result).how_much_better,
+      "No gain shown: on 8 values, predicted without being fitted, the misfit goes from 2.00 to 2.20 standard deviations, "
+      "10 % more (90 % interval -4 to 25 %).");
   // Modes left out in turn: sums of squares 9 + 27 and 4 + 5 of 1 + 3 rows are 3 and 1.5 each.
   result.gain = {};
   result.form.emplace();
