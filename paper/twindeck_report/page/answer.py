@@ -77,9 +77,10 @@ def _without_diagnosis(study: Study, told) -> str:
         return "No step has found a mode yet."
     if not told.before:
         return f"{len(told.rows)} modes were identified from the records; no model was compared with them."
-    if any(r.measured == r.measured for r in told.rows):
-        mean = sum(abs(r.error("before")) for r in told.rows) / len(told.rows)
-        return f"The model misses {len(told.rows)} measured frequencies by {mean:.2g} % in the mean; it was not updated."
+    errors = [abs(r.error("before")) for r in told.rows if r.error("before") == r.error("before")]
+    if errors:
+        mean = sum(errors) / len(errors)
+        return f"The model misses {len(errors)} measured frequencies by {mean:.2g} % in the mean; it was not updated."
     return f"The model has {len(told.rows)} modes; nothing measured was compared with them."
 
 

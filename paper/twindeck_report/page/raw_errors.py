@@ -18,18 +18,24 @@ class RawErrors:
     damping: tuple | None  # (before, after) as `frequency`, of the damping ratios
     damping_fitted: bool
     further_off: list  # of Told: modes whose frequency the causes move away from the measured one by more than its standard deviation
+    gained: int = 0  # modes that have a counterpart in the model after alone
+    lost: int = 0  # in the model before alone
 
 
 def raw_errors(told: Telling | None) -> RawErrors | None:
-    """None where there is no model with a cause in it."""
+    """None where there is no model with a cause in it, or no mode that has a counterpart in both."""
     if told is None or not told.after:
         return None
-    rows = [r for r in told.rows if r.held_out] or told.rows
+    both = [r for r in told.rows if r.before == r.before and r.after == r.after]
+    rows = [r for r in both if r.held_out] or both
+    if not rows:
+        return None
     alike = [(r.mac_before, r.mac_after) for r in rows if r.mac_before == r.mac_before and r.mac_after == r.mac_after]
     growth = [abs(r.error("after")) - abs(r.error("before")) for r in rows]
     worse = _mean(growth) > (stdev(growth) / len(growth) ** 0.5 if len(growth) > 1 else 0.0)
     return RawErrors(rows[0].held_out, len(rows), tuple(_mean(abs(r.error(side)) for r in rows) for side in ("before", "after")), worse,
-                     tuple(map(_mean, zip(*alike))) if alike else None, told.damping, not told.damping_held_out, sorted(filter(_further_off, rows), key=lambda r: -abs(r.error("after"))))
+                     tuple(map(_mean, zip(*alike))) if alike else None, told.damping, not told.damping_held_out, sorted(filter(_further_off, rows), key=lambda r: -abs(r.error("after"))),
+                     sum(r.before != r.before and r.after == r.after for r in told.rows), sum(r.before == r.before and r.after != r.after for r in told.rows))
 
 
 def _further_off(row: Told) -> bool:
@@ -52,6 +58,8 @@ def in_words(raw: RawErrors, most: int | None = None) -> str:
         told.append(f"{'fitted ' if raw.held_out and raw.damping_fitted else ''}damping ratios off by {_both(raw.damping, '{:.2g} %')}")
     worse = "; ".join(map(_changed, raw.further_off[:most]))
     left_out = len(raw.further_off[most:]) if most else 0
+    alone = [f"{n} mode{'s have' if n > 1 else ' has'} a counterpart in the model only {side}" for n, side in ((raw.gained, "after"), (raw.lost, "before")) if n]
+    told += [", ".join(alone)] if alone else []
     return f"{'; '.join(told)}.{f' Further off than before: {worse}' if worse else ''}{f' and {left_out} more' if left_out else ''}{'.' if worse else ''}"
 
 
