@@ -54,7 +54,7 @@ def write_campaign(records: list, tables: list, folder: Path) -> Written:
     if len(layouts) > 1 and not shared:
         missing.append("channels.csv: `reference` = 1 for the channels that stayed in place in all setups; they tie the setups together")
     if len(layouts) > 1 and len(set(conditions) - {"as_tested"}) > 1:
-        missing.append("campaign.toml: one and the same `condition` for the records of all setups that were made in one state; they are joined then")
+        missing.append("campaign.toml: one and the same `condition` for the records of all setups that were made in one state; they are joined then; name one of them in s4_refinement.toml and s6_updating.toml too")
     if len(conditions) > len(layouts):
         missing.append("conditions.toml: what was different between the records: temperature_C, wind_m_s, state = \"name\" where the structure itself changed")
     (folder / "campaign.toml").write_text("\n".join(entries), encoding="utf-8")

@@ -12,7 +12,7 @@ from .campaign import all_known, write_campaign
 from .errors import InputError
 from .inspection import inspected
 from .sensors import table_of_sensors
-from .settings import Settings, chosen, from_peaks
+from .settings import Settings, chosen
 from .study import write_study
 
 
@@ -46,7 +46,7 @@ def _new(name: str, files: list, bin_folder: Path) -> int:
         data.mkdir()
         missing = all_known(tables, records)
         written = write_campaign(records, tables, data / "campaign") if records else None
-        settings = _settings(bin_folder, data / "campaign", records)
+        settings = _settings(bin_folder, data / "campaign", targets[1] / "campaign", records)
         line = models.copy_model(source, data) if source else None
         missing += (written.missing if written else ["records: none given; state measured modes in features/ or take s3_identification in with records"])
         missing += source.missing if source else ["a model: put a folder or a deck into data/ and name it in study.toml, [model]; then add the steps from s1_model on"]
@@ -80,15 +80,29 @@ def _sorted_out(files: list, bin_folder: Path, title: str) -> tuple:
     return source, tables, records
 
 
-def _settings(bin_folder: Path, campaign: Path, records: list) -> Settings | None:
+def _settings(bin_folder: Path, campaign: Path, place: Path, records: list) -> Settings | None:
+    """None where nothing is known of the records' spectra: step 3 then chooses for itself. `place`: where the campaign will be."""
     if not records or any(r.rate_Hz is None for r in records):
         return None  # without a rate there is no spectrum in Hz
     rate, samples = min(r.rate_Hz for r in records), min(r.samples for r in records)
     try:
-        return chosen(bin_folder, campaign, rate, samples)
+        settings = chosen(bin_folder, campaign, rate, samples)
     except InputError as problem:
-        print(f"new: step 3 says of these records: {problem}", file=sys.stderr)
-        return from_peaks([], rate, samples)
+        print(f"new: step 3 says of these records: {_with_own_files(str(problem), campaign, place, records)}; "
+              "s3_identification.toml leaves band, block length and orders to the step", file=sys.stderr)
+        return None
+    return settings if settings.peaks_Hz else None
+
+
+def _with_own_files(text: str, campaign: Path, place: Path, records: list) -> str:
+    """The files that the user gave in the place of their copies, and the campaign's own where they will be."""
+    folders = (str(campaign.resolve()), str(campaign))
+    before = "(?:" + "|".join(re.escape(f"{folder}/") for folder in folders) + r"|(?<![\w/.]))"  # the step names files of the campaign without its folder too
+    for record in records:
+        text = re.sub(before + re.escape(f"records/{record.file.name}") + r"(?![\w.])", lambda _, file=record.file: str(file), text)
+    for folder in folders:
+        text = text.replace(folder, str(place))
+    return text
 
 
 def _told(name: str, targets: list, records: list, settings: Settings | None, missing: list) -> None:

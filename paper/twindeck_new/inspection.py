@@ -6,7 +6,7 @@ from pathlib import Path
 
 from .errors import InputError
 
-ROW = re.compile(r"^(?P<name>.*\S)\s+(?P<unit>\S+)\s+(?P<samples>\d+)\s+\d+\s+\d+\s+\d+\s+\S+\s+\S+(\s.*)?$")
+ROW = re.compile(r"^(?P<name>.*\S)\s+(?P<unit>\S+)\s+(?P<samples>\d+)\s+\d+\s+\d+\s+\d+(\s+(?:[-+]?[0-9.]+(?:e[-+]?\d+)?|[-+]?(?:nan|inf))){2}(\s.*)?$")
 UNNAMED = re.compile(r"column \d+$")  # how the step names a column that the file does not
 RATE = re.compile(r"rate\s+([0-9.eE+-]+) Hz")
 

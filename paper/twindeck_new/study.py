@@ -19,16 +19,17 @@ def write_study(folder: Path, name: str, title: str, model: str | None, written:
     if model:
         text += f"\n[model]\n{model.format(data=f'data/{name}')}\n"
     (folder / "study.toml").write_text(text, encoding="utf-8")
-    for step, lines in _configurations(settings).items():
+    for step, lines in _configurations(settings, written.conditions if written else []).items():
         if step in steps:
             (folder / f"{step}.toml").write_text("".join(f"{line}\n" for line in lines), encoding="utf-8")
 
 
-def _configurations(settings: Settings | None) -> dict:
+def _configurations(settings: Settings | None, conditions: list) -> dict:
+    one = [f"condition = {json.dumps(conditions[0], ensure_ascii=False)}   # the state that the model is in, one of: {', '.join(conditions)}"] if len(conditions) > 1 else []
     modes = settings.modes if settings else 8
     identification = ['kind = "ambient"']
     if settings:
         identification += [] if settings.by_step else [f"decimation = {settings.decimation}", f"block_rows = {settings.block_rows}"]
         identification += [f"maximum_order = {settings.maximum_order}", f"blocks = {settings.blocks}"]
-    return {"s1_model": [f"n_modes = {2 * modes}"], "s3_identification": identification, "s4_refinement": [f"n_modes = {2 * modes}", "maximum_frequency_error = 0.35"],
-            "s5_sensitivity": [f"n_modes = {modes}"], "s6_updating": ['parameters_from = "s5_sensitivity"', f"n_modes = {2 * modes}"], "s9_diagnosis": []}
+    return {"s1_model": [f"n_modes = {2 * modes}"], "s3_identification": identification, "s4_refinement": [f"n_modes = {2 * modes}", "maximum_frequency_error = 0.35", *one],
+            "s5_sensitivity": [f"n_modes = {modes}"], "s6_updating": ['parameters_from = "s5_sensitivity"', f"n_modes = {2 * modes}", *one], "s9_diagnosis": []}

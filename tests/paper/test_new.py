@@ -3,6 +3,8 @@ whole study out of a logger's text file, where the executables are built.
 
 Oracle: files as they are written here; closed forms of the settings (two periods of the lowest mode in a block, the highest mode below 0.4 of the rate).
 """
+import contextlib
+import io
 import os
 import subprocess
 import sys
@@ -16,7 +18,7 @@ import numpy as np
 ROOT = Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(ROOT / "paper"))
 
-from twindeck_new import campaign, inspection, model, sensors, settings  # noqa: E402
+from twindeck_new import campaign, cli, inspection, model, sensors, settings, study  # noqa: E402
 from twindeck_new.errors import InputError  # noqa: E402
 
 BIN = Path(os.environ.get("TWINDECK_BIN", ROOT / "build/bin"))
@@ -59,6 +61,11 @@ class Pieces(unittest.TestCase):
         self.assertTrue(record.named)
         self.assertIsNone(inspection.read(Path("x.npy"), [line.replace("rate      50 Hz, from the time column", "rate      unknown") for line in INSPECTED]).rate_Hz)
 
+    def test_a_remark_behind_a_row_does_not_shift_its_columns(self):
+        row = "Acc A                    m/s²               6000         0         0        0            1            0  constant"
+        record = inspection.read(Path("x.csv"), [*INSPECTED[:4], row])
+        self.assertEqual((record.columns, record.units, record.samples), (("Acc A",), ("m/s²",), 6000))
+
     def test_a_deck_is_told_from_a_record_of_the_same_ending(self):
         for name, text in (("a.dat", "SOL 103\nCEND\nBEGIN BULK\nGRID,1,,0.,0.,0.\n"), ("b.dat", "/PREP7\nET,1,188\n"), ("c.mac", "finish\n/prep7\n"), ("D.INP", "*NODE\n")):
             self.assertTrue(model.is_deck(self.write(name, text)), name)
@@ -86,6 +93,32 @@ class Pieces(unittest.TestCase):
         self.assertEqual((found.decimation, found.block_rows, found.blocks), (4, 25, 12))
         self.assertEqual(found.maximum_order % 2, 0)
         self.assertEqual(settings.from_peaks([2.0, 8.0], 100.0, 60000).decimation, 5)
+
+    def test_nothing_is_written_where_nothing_is_known(self):
+        """Keys of a trial that failed would stay when the records are mended."""
+        self.assertEqual(study._configurations(None, [])["s3_identification"], ['kind = "ambient"'])
+
+    def test_a_step_that_refuses_leaves_no_settings_and_names_the_users_files(self):
+        """A program in the place of step 3 that refuses its campaign; one that runs and finds no peak has nothing to say either."""
+        program, record = self.folder / "s3_identification", inspection.Record(Path("from/here/a.csv"), 100.0, ("p",), ("g",), 1000)
+        place = self.folder / "tmp1/data/campaign"
+        program.write_text('#!/bin/sh\necho "$2/records/a.csv: line 7: time runs backwards; see $2/campaign.toml and $2/records/a.csv.bak, records/a.csv" >&2\nexit 2\n', encoding="utf-8")
+        program.chmod(0o755)
+        told = io.StringIO()
+        with contextlib.redirect_stderr(told):
+            self.assertIsNone(cli._settings(self.folder, place, Path("data/mill/campaign"), [record]))
+        self.assertIn("from/here/a.csv: line 7: time runs backwards; see data/mill/campaign/campaign.toml and data/mill/campaign/records/a.csv.bak, from/here/a.csv; ", told.getvalue())
+        self.assertNotIn("tmp1", told.getvalue())
+        program.write_text('#!/bin/sh\nmkdir -p "$4"\nprintf "setup,frequency_Hz,sv1\\nA,1,1\\nA,2,1\\n" >"$4/singular_values.csv"\n', encoding="utf-8")
+        self.assertIsNone(cli._settings(self.folder, place, Path("data/mill/campaign"), [record]))
+
+    def test_of_several_states_the_first_is_the_models(self):
+        for conditions, line in ((["as_tested"], None), (["enero", "julio"], {"condition": "enero"})):
+            found = study._configurations(None, conditions)
+            for step in ("s4_refinement", "s6_updating"):
+                self.assertEqual(tomllib.loads("\n".join(found[step])).get("condition"), line and line["condition"])
+                self.assertEqual("one of: enero, julio" in "\n".join(found[step]), line is not None)
+            self.assertNotIn("condition", "".join(found["s5_sensitivity"] + found["s9_diagnosis"]))
 
     def test_a_lone_peak_and_noise(self):
         """A resonance over flat noise is one peak; noise whose level scatters by a third has none."""
