@@ -11,11 +11,13 @@
 #include <numbers>
 #include <set>
 
+#include "core/lists.hpp"
 #include "io/text_lines.hpp"
 #include "model_io/deck_card.hpp"
 #include "model_io/deck_model.hpp"
 #include "model_io/deck_units.hpp"
 #include "model_io/profiles.hpp"
+#include "model_io/sap2000_constraints.hpp"
 
 namespace twindeck::model_io {
 namespace {
@@ -122,6 +124,7 @@ SapTables::SapTables(const std::filesystem::path& file) {
 }
 
 const std::array<std::string, 6> joint_directions = {"U1", "U2", "U3", "R1", "R2", "R3"};
+const std::array<std::string, 6> global_directions = {"UX", "UY", "UZ", "RX", "RY", "RZ"};
 
 /// Tables of the structure that are read, and beginnings of names of tables that say nothing about stiffness and mass.
 const std::vector<std::string>& sap_tables_read() {
@@ -130,7 +133,7 @@ const std::vector<std::string>& sap_tables_read() {
       "ASSIGNMENTS|CONNECTIVITY - FRAME|CONNECTIVITY - AREA|FRAME SECTION ASSIGNMENTS|FRAME SECTION PROPERTIES 01 - "
       "GENERAL|FRAME LOCAL AXES ASSIGNMENTS 1 - TYPICAL|FRAME RELEASE ASSIGNMENTS 1 - GENERAL|FRAME PROPERTY MODIFIERS|AREA "
       "SECTION ASSIGNMENTS|AREA SECTION PROPERTIES|MATERIAL PROPERTIES 02 - BASIC MECHANICAL PROPERTIES|MASS SOURCE|MASSES 1 - "
-      "MASS SOURCE",
+      "MASS SOURCE|CONSTRAINT DEFINITIONS - BODY|CONSTRAINT DEFINITIONS - DIAPHRAGM|JOINT CONSTRAINT ASSIGNMENTS",
       '|');
   return names;
 }
@@ -183,6 +186,7 @@ class SapReader {
     read_areas();
     read_attachments();
     hold_inactive();
+    read_constraints();
     deck_.drop_unused_nodes();
     to_si(deck_.model, units, 1.0);
     return deck_.finished({file}, "frames or areas");
@@ -432,20 +436,43 @@ class SapReader {
     element.name = element.group = group + "_mass";
     Eigen::Matrix<double, 6, 1> diagonal;
     diagonal << mass, inertia;
-    for (int d = 0; d < 6; ++d) element.dofs.push_back({node, d});
-    element.mass = diagonal.asDiagonal();
+    std::vector<int> heavy;  // a direction without mass needs nothing that holds it
+    for (int d = 0; d < 6; ++d)
+      if (diagonal[d] > 0.0) heavy.push_back(d), element.dofs.push_back({node, d});
+    element.mass = diagonal(heavy).asDiagonal();
     deck_.model.matrix_elements.push_back(element);
   }
 
   /// Directions that the analysis leaves out are held at every joint.
   void hold_inactive() {
-    static const std::array<std::string, 6> names = {"UX", "UY", "UZ", "RX", "RY", "RZ"};
     for (const SapRow& row : tables_.rows("ACTIVE DEGREES OF FREEDOM")) {
       Directions inactive{};
-      for (std::size_t d = 0; d < 6; ++d) inactive[d] = upper_case(row.get(names[d], "Yes")) == "NO";
+      for (std::size_t d = 0; d < 6; ++d) inactive[d] = upper_case(row.get(global_directions[d], "Yes")) == "NO";
       if (inactive == Directions{}) continue;
       for (const auto& [name, node] : joints_) deck_.hold("inactive", node, inactive);
     }
+  }
+
+  void read_constraints() {
+    std::map<long, SapConstraint> by_line;
+    for (const SapRow& row : tables_.rows("JOINT CONSTRAINT ASSIGNMENTS")) {
+      const std::string type = upper_case(row.required("Type"));
+      if (type != "BODY" && type != "DIAPHRAGM")
+        row.fail(fmt::format("is of Type {}, of which Body and Diaphragm are read", row.get("Type")), "say it by one of these");
+      const SapRow& of = row_of(row, "CONSTRAINT DEFINITIONS - " + type, "Name", row.required("Constraint"));
+      for (const std::string& key : global_directions)
+        if (type == "BODY" && !of.yes(key))
+          of.fail(fmt::format("does not tie {}, and a body is read that is rigid in all directions", key), "set it to Yes");
+      if (type == "DIAPHRAGM" && upper_case(of.get("CoordSys", "GLOBAL")) != "GLOBAL")
+        of.fail("is given in other axes than the global ones", "write CoordSys=GLOBAL");
+      SapConstraint& constraint = by_line[of.line];
+      constraint.at = of;
+      constraint.name = lower_case(type) + "_" + of.get("Name");
+      constraint.axis = type == "BODY" ? "" : upper_case(of.get("Axis", "Z"));
+      constraint.by_level = of.yes("MultiLevel");
+      if (const int node = joint(row, "Joint"); !contains(constraint.joints, node)) constraint.joints.push_back(node);
+    }
+    for (const auto& [line, constraint] : by_line) tie_joints(deck_, constraint);
   }
 
   SapTables tables_;

@@ -200,8 +200,7 @@ TEST(Sap2000, RefusesWhatItDoesNotCarryByItsTable) {
   for (const Case& c : {
            Case{"", "TABLE:  \"CONNECTIVITY - LINK\"\n   Link=1   JointI=1\n",
                 "CONNECTIVITY - LINK: this table is not carried"},
-           {"", "TABLE:  \"JOINT CONSTRAINT ASSIGNMENTS\"\n   Joint=1   Constraint=D\n",
-            "JOINT CONSTRAINT ASSIGNMENTS: this table"},
+           {"", "TABLE:  \"CONSTRAINT DEFINITIONS - EQUAL\"\n   Name=E   UX=Yes\n", "DEFINITIONS - EQUAL: this table"},
            {"", "TABLE:  \"FRAME PROPERTY MODIFIERS\"\n   Frame=1   AMod=2\n", "AMod is 2"},
            {"", "TABLE:  \"MASS SOURCE\"\n   MassSource=M   Elements=Yes   Masses=Yes   Loads=Yes\n",
             "takes masses from loads"},
