@@ -176,6 +176,11 @@ MemberProperty member(Parts& parts, const Card& card, const fe::Section& a, cons
   p.section = parts.add_section(a);
   if (b) p.section2 = parts.add_section(*b);
   p.material = parts.material(card, card.integer(1), nsm / a.area_m2, property_name(card));
+  if (nsm > 0.0)
+    parts.note_once(
+        property_name(card) +
+        ": the spread mass (NSM) turns with the section, which Nastran's does not, and lowers torsional frequencies; "
+        "give it by CONM2 at the grids instead");
   return p;
 }
 

@@ -92,6 +92,18 @@ TEST(NastranElements, MemberWithOffsetsPinsAndVectorByGrid) {
   EXPECT_EQ(m.materials.at(0).name, "mat1_1_pbar_4");
 }
 
+// Mass along a member turns with its section; a rod has no such motion.
+TEST(NastranElements, SaysThatNonstructuralMassTurnsWithTheSection) {
+  const TestFolder folder;
+  const auto notes = [&](const std::string& cards) {
+    return fmt::format("{}", fmt::join(import_deck(folder, two_grids + cards).notes, "\n"));
+  };
+  const std::string bar = "CBAR,1,4,1,2,0.,1.,0.\nPBAR,4,1,.01,2.-5,1.-5,3.-5", turns = "(NSM) turns with the section";
+  EXPECT_NE(notes(bar + ",78.\n").find("pbar_4: the spread mass " + turns), std::string::npos);
+  EXPECT_EQ(notes(bar + "\n").find(turns), std::string::npos);
+  EXPECT_EQ(notes("CONROD,7,1,2,1,.5,,,39.\nSPC1,1,23,2\n").find(turns), std::string::npos);
+}
+
 TEST(NastranElements, SectionsOfTheLibraries) {
   const TestFolder folder;
   const auto section = [&](const std::string& type, const std::string& dimensions) {
