@@ -215,6 +215,16 @@ TEST(ExtendedModel, ASupportWithoutAGroupHasItsSpringsName) {
   line.expect(At("scale.stiffness", {{"factor", 0.2}}, "supports", "support:shoe"), soft);
 }
 
+TEST(ExtendedModel, OneOfSeveralBearingsIsTheSpringsOfItsNode) {
+  fe::Model model = Line().model();
+  model.springs.push_back(spring("shoe_20", "pier", 1, -1, 3e7));
+  const InTheLine line(std::move(model));
+  Line soft;
+  soft.near_ground = 3e7;
+  soft.pier *= 0.2;
+  line.expect(At("scale.stiffness", {{"factor", 0.2}}, "supports", "support:pier at node 10"), soft);
+}
+
 TEST(ExtendedModel, ADamperBesideASupportIsNoneOfIt) {
   fe::Model model = Line().model();
   fe::Spring damper = spring("D", "pier", 1, -1, 4e7);

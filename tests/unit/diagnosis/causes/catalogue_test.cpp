@@ -24,18 +24,6 @@ TEST(Catalogue, EveryKeyOfAConditionIsReadFromIt) {
   for (const std::string& key : diagnosis::condition_keys()) EXPECT_TRUE(number_of(all, key).has_value()) << key;
 }
 
-TEST(Primitives, StandInTheOrderOfTheEnumerationUnderNamesOfTheirOwn) {
-  std::set<std::string> names;
-  for (std::size_t i = 0; i < diagnosis::primitives().size(); ++i) {
-    const diagnosis::PrimitiveKind& kind = diagnosis::primitives()[i];
-    EXPECT_EQ(static_cast<std::size_t>(kind.primitive), i) << kind.name;
-    EXPECT_EQ(diagnosis::primitive_named(kind.name), kind.primitive);
-    EXPECT_TRUE(names.insert(kind.name).second) << kind.name;
-    EXPECT_EQ(std::set<std::string>(kind.numbers.begin(), kind.numbers.end()).size(), kind.numbers.size()) << kind.name;
-  }
-  EXPECT_EQ(diagnosis::primitive_named("scale.stifness"), std::nullopt);
-}
-
 TEST(Catalogue, NumbersOfAPlaceAreThoseOfTheListAndThoseOfTheModel) {
   for (const char* name : {"k_drive", "f_own", "x_low", "node_3", "least_change", "most_change"})
     EXPECT_TRUE(diagnosis::is_place_number(name)) << name;

@@ -220,6 +220,26 @@ TEST(SupportPlaces, AreTheirSpringsInDisplacementsAndInRotations) {
   EXPECT_LT((pad->x_m - Vector3d(8.0, 0.0, 0.0)).norm(), 1e-12);
 }
 
+TEST(SupportPlaces, BearingsOfOneGroupAreOneTogetherAndOneEach) {
+  fe::Model model = beam_with_stay();
+  model.springs = {spring_at("pad_1", "pads", 1, Vector3d::UnitZ(), 5e6),
+                   spring_at("pad_2", "pads", 2, Vector3d::UnitZ(), 3e6)};
+  const PlacesOf found(model);
+  const auto bearing = [&](int node) {
+    return found.place("supports", fmt::format("support:pads at node {}", model.nodes[static_cast<std::size_t>(node)].id));
+  };
+  const Place *all = found.place("supports", "support:pads"), *first = bearing(1), *second = bearing(2);
+  ASSERT_TRUE(all != nullptr && first != nullptr && second != nullptr);
+  const VectorXd one = found.at(2, Vector3d::UnitZ()), other = found.at(3, Vector3d::UnitZ());
+  expect_matrix(all->stiffness, 5e6 * one * one.transpose() + 3e6 * other * other.transpose());
+  expect_matrix(first->stiffness, 5e6 * one * one.transpose());
+  expect_matrix(second->stiffness, 3e6 * other * other.transpose());
+  EXPECT_LT((second->x_m - model.nodes[2].x_m).norm(), 1e-12);
+  // Each bearing has an error of its own, all together none besides.
+  EXPECT_TRUE(all->attributes.contains(diagnosis::kSeveralBearings));
+  EXPECT_FALSE(first->attributes.contains(diagnosis::kSeveralBearings));
+}
+
 TEST(GroupPlaces, OfElementsAndOfSpringsBetweenNodes) {
   fe::Model model = beam_with_stay();
   model.springs = {spring_at("hinge", "joints", 1, Vector3d::UnitX(), 3e6),

@@ -85,6 +85,7 @@ TEST(PlaceWords, SupportsAreCalledAsTheUserCalledThem) {
   EXPECT_EQ(words.at("support:pier_W").words, "the support pier_W at x = 20 m");
   EXPECT_DOUBLE_EQ(words.at("support:pier_W").x_m.x(), 20.0);
   EXPECT_EQ(words.at("support:foot").words, "the support foot at x = 0 m and at x = 40 m");
+  EXPECT_EQ(words.at("support:foot at node 108").words, "the support foot at node 108 at x = 40 m");
   EXPECT_TRUE(std::isnan(words.at("support:foot").x_m.x()));  // two ends of the bridge have no middle to look at
   EXPECT_EQ(words.at("support:node_102").words, "the support of the deck at x = 10 m (node 102)");
 }
