@@ -78,7 +78,8 @@ MatrixXd Predictor::load_slopes(SolvedLoadTest& test) {
   }
   if (with_jacobian_) {  // otherwise several threads read the base's store, and `changes` may write to it
     const auto& change = changes(state);
-    const MatrixXd held = changed(state, false, test.answer);
+    Moved moved;
+    const MatrixXd held = changed(state, false, test.answer, moved);
     for (std::size_t k = 0; k < change.position.size(); ++k) loads.col(change.position[k]) -= held.col(static_cast<Index>(k));
   }
   return loads;

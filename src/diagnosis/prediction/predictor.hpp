@@ -128,15 +128,21 @@ class Predictor {
   void differentiate_modes(SolvedState& solved, std::vector<Eigen::Index> modes) const;
   /// Computes the derivatives of all modes paired with measured ones.
   void differentiate_paired();
+  /// Motion of all degrees of freedom by the columns of some x that are not zero, for matrices of few of them.
+  struct Moved {
+    Eigen::MatrixXd own, motion;  ///< vectors behind the common ones (n × n_own), motion (n × n_columns)
+  };
   /// Changes of a state's stiffness or mass times each column of x, including parts that causes share with a parameter (size ×
   /// n_columns n_changes).
-  [[nodiscard]] Eigen::MatrixXd changed(const SolvedState& state, bool mass, const Eigen::MatrixXd& x) const;
+  /// @param moved  of the same x; filled where it is empty
+  [[nodiscard]] Eigen::MatrixXd changed(const SolvedState& state, bool mass, const Eigen::MatrixXd& x, Moved& moved) const;
   /// Changes of a matrix times each column of x (size × n_columns): (size × n_columns n_changes), column by column of x.
   [[nodiscard]] Eigen::MatrixXd times(const std::vector<int>& columns, const std::vector<MatrixChange>& changes,
-                                      const Eigen::MatrixXd& x) const;
+                                      const Eigen::MatrixXd& x, Moved& moved) const;
 
-  // which mode is which (pairing.cpp) Pairs the measured modes of conditions in one state with modes of the model: one-to-one,
-  // at the least cost of frequencies, shapes and, with dampers, damping.
+  // which mode is which (pairing.cpp)
+  /// Pairs the measured modes of conditions in one state with modes of the model: one-to-one, at the least cost of frequencies,
+  /// shapes and, with dampers, damping.
   void pair(const std::vector<int>& conditions);
   /// The measured mode whose shape is used: itself, or one of the same label.
   [[nodiscard]] const MeasuredMode& shaped_like(const MeasuredMode& measured) const;

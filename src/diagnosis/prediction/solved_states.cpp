@@ -187,7 +187,8 @@ void Predictor::differentiate_modes(SolvedState& solved, std::vector<Index> mode
   const auto n = solved.modes.shapes.rows(), count = std::ssize(modes);
   MatrixXd parts(n, 2 * count);  // real parts, imaginary parts
   parts << solved.modes.shapes(Eigen::all, modes).real(), solved.modes.shapes(Eigen::all, modes).imag();
-  const MatrixXd stiffness = changed(solved, false, parts), mass = changed(solved, true, parts);
+  Moved moved;
+  const MatrixXd stiffness = changed(solved, false, parts, moved), mass = changed(solved, true, parts, moved);
   const auto changes = std::ssize(this->changes(solved).position);
   for (Index k = 0; k < count; ++k) {
     const Index mode = modes[static_cast<std::size_t>(k)];
@@ -206,9 +207,9 @@ void Predictor::differentiate_modes(SolvedState& solved, std::vector<Index> mode
   }
 }
 
-MatrixXd Predictor::changed(const SolvedState& state, bool mass, const MatrixXd& x) const {
+MatrixXd Predictor::changed(const SolvedState& state, bool mass, const MatrixXd& x, Moved& moved) const {
   const StateStore::Changes& change = changes(state);
-  MatrixXd out = times(state.columns, mass ? change.mass : change.stiffness, x);
+  MatrixXd out = times(state.columns, mass ? change.mass : change.stiffness, x, moved);
   const auto count = std::ssize(change.position);
   for (const SolvedState::Followed& followed : state.followed) {
     if (followed.mass != mass) continue;
@@ -227,24 +228,25 @@ MatrixXd Predictor::changed(const SolvedState& state, bool mass, const MatrixXd&
   return out;
 }
 
-MatrixXd Predictor::times(const std::vector<int>& columns, const std::vector<MatrixChange>& changes, const MatrixXd& x) const {
+MatrixXd Predictor::times(const std::vector<int>& columns, const std::vector<MatrixChange>& changes, const MatrixXd& x,
+                          Moved& moved) const {
   const auto count = std::ssize(changes), n = std::ssize(columns);
   MatrixXd out = MatrixXd::Zero(x.rows(), count * x.cols());
   std::vector<Index> moving;  // undamped modes have no imaginary part
   for (Index p = 0; p < x.cols(); ++p)
     if (!x.col(p).isZero(0.0)) moving.push_back(p);
   const MatrixXd here = x(Eigen::all, moving);
-  MatrixXd own, motion, product(x.rows(), here.cols());
+  MatrixXd product(x.rows(), here.cols());
   for (Index j = 0; j < count; ++j) {
     const MatrixChange& change = changes[static_cast<std::size_t>(j)];
     product.setZero();
     if (change.dense.size() > 0) product.noalias() = change.dense * here;
     if (change.local != nullptr) {
-      if (motion.size() == 0) {
-        own = change.local->basis().own(columns);
-        motion = change.local->basis().motion(own, here.topRows(n));
+      if (moved.motion.size() == 0) {
+        moved.own = change.local->basis().own(columns);
+        moved.motion = change.local->basis().motion(moved.own, here.topRows(n));
       }
-      change.local->add_product(change.amount, own, motion, product.topRows(n));
+      change.local->add_product(change.amount, moved.own, moved.motion, product.topRows(n));
     }
     for (std::size_t k = 0; k < moving.size(); ++k) out.col(moving[k] * count + j) = product.col(static_cast<Index>(k));
   }
