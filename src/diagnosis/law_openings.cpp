@@ -32,7 +32,8 @@ struct OpenMode {
   std::vector<int> rows;         ///< positions among the training rows
   std::vector<double> spurious;  ///< variance of each row if the mode is spurious
   bool is_open = false;
-  Opening now;  ///< present opening in the system
+  bool may_change = false;  ///< conditions differ: unless the mode is spurious, its change is for causes to explain
+  Opening now;              ///< present opening in the system
   std::vector<Opening> openings;
 };
 
@@ -110,12 +111,14 @@ std::vector<OpenMode> modes_that_may_open(const Inference& plain, const FitSyste
   }
   // If states differ, a changing shape may come from a cause.
   const bool may_be_missing = states_of(map.features()).size() == 1 && !system.modes.structures.empty();
+  const bool may_change = !contrasts_of(map.features()).empty();
   std::vector<OpenMode> out;
   for (auto& [name, open] : by_name) {
     const auto n = std::ssize(open.rows);
     open.openings = {{Eigen::Map<const VectorXd>(open.spurious.data(), n).asDiagonal(),
                       static_cast<double>(open.modes.size()) * log_prior_of_open()}};
     open.now = open.is_open ? open.openings.front() : Opening{MatrixXd::Zero(n, n)};
+    open.may_change = may_change;
     if (may_be_missing) open.openings.push_back({of_a_missing_mode(map, system, open, plain.training()), log_prior_of_open()});
     out.push_back(std::move(open));
   }
@@ -157,7 +160,7 @@ std::vector<BetterOpening> gains_of_opening(const LawSystem& system, const LawHy
     const double now = log_density(e, covariance) + open.now.log_prior;
     BetterOpening most;
     for (std::size_t o = 0; o < open.openings.size(); ++o) {
-      if (o > 0 && !open.is_open && most.nats <= 0.0) break;  // it is none of the model's to begin with
+      if (o > 0 && open.may_change && !open.is_open && most.nats <= 0.0) break;
       const Opening& opening = open.openings[o];
       const double nats = log_density(e, covariance - open.now.covariance + opening.covariance) + opening.log_prior - now;
       if (nats > most.nats) most = {nats, k, o};
