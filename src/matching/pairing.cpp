@@ -42,7 +42,7 @@ MatrixXd relative_error(const Eigen::VectorXd& frequency_x, const Eigen::VectorX
 }
 
 /// Share of `x` that lies in the span of the columns of `basis`. Makes x orthogonal to the columns by modified Gram-Schmidt,
-/// the longest column first; what is left of x is outside the span. Columns of rounding size are skipped.
+/// the longest column first; the part of x that is left lies outside the span. Columns of rounding size are skipped.
 double subspace_mac(Eigen::MatrixXcd basis, const Eigen::MatrixXcd& x) {
   const double rounding = std::numeric_limits<double>::epsilon() * static_cast<double>(basis.cols()) * basis.norm();
   Eigen::VectorXcd rest = x;

@@ -267,6 +267,7 @@ void ElementPlaces::add_supports(Places& places) const {
   };
   const auto is_bearing = [](const fe::Spring& s) { return !s.is_damper() && fe::carries_stiffness(s) && s.node2 < 0; };
   std::map<std::string, std::set<int>> nodes;  // of a group: springs of one property may be bearings far from each other
+  std::set<std::string> single;
   for (const fe::Spring& spring : model_.springs)
     if (is_bearing(spring)) nodes[spring.support_name()].insert(spring.node);
   for (const fe::Spring& spring : model_.springs) {
@@ -274,7 +275,9 @@ void ElementPlaces::add_supports(Places& places) const {
     const bool rigid = stands_for_rigid(spring);
     const std::string& name = spring.support_name();
     add(rigid && of_springs.contains(name) ? name + " fixed" : name, spring, rigid);
-    if (!rigid && nodes[name].size() > 1) add(one_bearing(model_, spring), spring, false);
+    if (rigid || nodes[name].size() < 2) continue;
+    add(one_bearing(model_, spring), spring, false);
+    single.insert(one_bearing(model_, spring));
   }
   for (const Support& support : supports) {
     for (const bool rotation : {false, true}) {
@@ -289,6 +292,7 @@ void ElementPlaces::add_supports(Places& places) const {
       place.attributes["f_stiff"] = support.rigid ? 5e-4 : 4.0;
       place.attributes["f_high"] = support.rigid ? 1e-2 : 30.0;
       if (nodes.contains(support.name) && nodes[support.name].size() > 1) place.attributes[kSeveralBearings] = 1.0;
+      if (single.contains(support.name)) place.attributes[kOneBearing] = 1.0;
       places.sets[rotation ? "foundations" : "supports"].push_back(std::move(place));
     }
   }

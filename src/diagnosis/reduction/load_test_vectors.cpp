@@ -63,7 +63,7 @@ std::vector<Place> supports_of(const Places& places) {
   std::vector<Place> out;
   if (const auto found = places.sets.find("supports"); found != places.sets.end())
     std::ranges::copy_if(found->second, std::back_inserter(out),
-                         [](const Place& place) { return place.id.find(" at node ") == std::string::npos; });
+                         [](const Place& place) { return !place.attributes.contains(kOneBearing); });
   return out;
 }
 

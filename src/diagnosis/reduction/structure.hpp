@@ -25,6 +25,7 @@ inline constexpr const char* kRigidSpring = "_rigid_";
 
 /// Number of a support whose springs stand at several nodes. Each of these bearings is a location of its own besides.
 inline constexpr const char* kSeveralBearings = "several_bearings";
+inline constexpr const char* kOneBearing = "one_bearing";  ///< number of each of these locations
 /// Name of the bearing at a spring's node: "pelas_52 at node 109".
 [[nodiscard]] inline std::string one_bearing(const fe::Model& model, const fe::Spring& spring) {
   return spring.support_name() + " at node " + std::to_string(model.nodes[static_cast<std::size_t>(spring.node)].id);

@@ -238,6 +238,8 @@ TEST(SupportPlaces, BearingsOfOneGroupAreOneTogetherAndOneEach) {
   // Each bearing has an error of its own, all together none besides.
   EXPECT_TRUE(all->attributes.contains(diagnosis::kSeveralBearings));
   EXPECT_FALSE(first->attributes.contains(diagnosis::kSeveralBearings));
+  EXPECT_TRUE(first->attributes.contains(diagnosis::kOneBearing));
+  EXPECT_FALSE(all->attributes.contains(diagnosis::kOneBearing));
 }
 
 TEST(GroupPlaces, OfElementsAndOfSpringsBetweenNodes) {
