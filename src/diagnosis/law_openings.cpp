@@ -32,7 +32,7 @@ struct OpenMode {
   std::vector<int> rows;         ///< positions among the training rows
   std::vector<double> spurious;  ///< variance of each row if the mode is spurious
   bool is_open = false;
-  bool may_change = false;  ///< conditions differ: unless the mode is spurious, its change is for causes to explain
+  bool may_change = false;  ///< conditions differ: it may be missing only where it may be spurious
   Opening now;              ///< present opening in the system
   std::vector<Opening> openings;
 };

@@ -23,9 +23,9 @@ using SensorValues = std::function<Eigen::MatrixXd(const Eigen::MatrixXd& vector
 /// Part of the name of springs that replace a rigid support, before their direction.
 inline constexpr const char* kRigidSpring = "_rigid_";
 
-/// Number of a support whose springs stand at several nodes. Each of these bearings is a location of its own besides.
+/// Attribute of a support whose springs stand at several nodes. Each of these bearings is also a location of its own.
 inline constexpr const char* kSeveralBearings = "several_bearings";
-inline constexpr const char* kOneBearing = "one_bearing";  ///< number of each of these locations
+inline constexpr const char* kOneBearing = "one_bearing";  ///< attribute of such a location
 /// Name of the bearing at a spring's node: "pelas_52 at node 109".
 [[nodiscard]] inline std::string one_bearing(const fe::Model& model, const fe::Spring& spring) {
   return spring.support_name() + " at node " + std::to_string(model.nodes[static_cast<std::size_t>(spring.node)].id);
