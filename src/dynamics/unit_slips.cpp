@@ -27,16 +27,19 @@ struct Band {
 
 constexpr Band material_speed_m_s{1000.0, 13000.0};  ///< from lead to carbon fibre: what a mended unit has to lead to
 constexpr Band usual_speed_m_s{2500.0, 6500.0};      ///< concrete, timber, aluminium, steel
-constexpr double heavy_kg_m3 = 2200.0;               ///< concrete and metals; soil and rubber, which are slow, lie below
-constexpr double longest_structure_m = 10000.0;      ///< one model; the longest bridges have spans of 2 km
-constexpr double long_structure_m = 500.0;           ///< from here on members are looked at
-constexpr double slenderest_member = 2000.0;  ///< [-] median of element length over depth; a cable in few pieces has 1000
-constexpr Band structure_Hz{0.01, 10000.0};   ///< first mode: the longest suspension bridges have 0.03 to 0.05 Hz
-constexpr double rigid_body = 1e-5;           ///< [-] of the highest computed frequency: rounding of zero
-constexpr double stands_off = 50.0;           ///< [-] from one measured frequency to the next; bands are not that far apart
-constexpr double most_model_error = 5.0;      ///< [-] between measured and computed frequencies
-constexpr double known_factor_within = 1.15;  ///< [-] of the factor of a slip, which sits on top of a model's own error
-constexpr int fewest_ratios = 3;              ///< two ratios agree by chance
+/// Steel to which points give up to ten times its mass, and where a modulus in kPa lies below.
+constexpr Band carrying_speed_m_s{750.0, 6500.0};
+constexpr double slowest_carrying_m_s = 400.0;
+constexpr double heavy_kg_m3 = 2200.0;           ///< concrete and metals; soil and rubber, which are slow, lie below
+constexpr double longest_structure_m = 10000.0;  ///< one model; the longest bridges have spans of 2 km
+constexpr double long_structure_m = 500.0;       ///< from here on members are looked at
+constexpr double slenderest_member = 2000.0;     ///< [-] median of element length over depth; a cable in few pieces has 1000
+constexpr Band structure_Hz{0.01, 10000.0};      ///< first mode: the longest suspension bridges have 0.03 to 0.05 Hz
+constexpr double rigid_body = 1e-5;              ///< [-] of the highest computed frequency: rounding of zero
+constexpr double stands_off = 50.0;              ///< [-] from one measured frequency to the next; bands are not that far apart
+constexpr double most_model_error = 5.0;         ///< [-] between measured and computed frequencies
+constexpr double known_factor_within = 1.15;     ///< [-] of the factor of a slip, which sits on top of a model's own error
+constexpr int fewest_ratios = 3;                 ///< two ratios agree by chance
 constexpr double gravity_m_s2 = 9.80665;
 constexpr double gravity_in_s2 = 386.0886;  ///< [in/s2]
 /// Tungsten, the densest structural material, lies below. A larger number is a weight per volume, or kilograms among tonnes.
@@ -50,19 +53,6 @@ struct OtherUnit {
   double factor;
   const char* name;
 };
-
-std::optional<std::string> modulus_slip(const fe::Material& m, double speed) {
-  for (const OtherUnit& unit : {OtherUnit{1e6, "MPa (N/mm2)"}, OtherUnit{1e9, "GPa"}, OtherUnit{1e3, "kPa"}}) {
-    const Band& band = unit.factor == 1e3 ? usual_speed_m_s : material_speed_m_s;  // soft soil is near metals in kPa
-    if (unit.factor == 1e3 && m.density_kg_m3 < heavy_kg_m3) continue;
-    if (!band.holds(speed * std::sqrt(unit.factor))) continue;
-    return fmt::format(
-        "material '{}' has E = {:g} Pa, so that waves run at {:.3g} m/s in it; steel has 5200, concrete 3500: is E "
-        "in {}? Give pascals",
-        m.name, m.youngs_modulus_Pa, speed, unit.name);
-  }
-  return std::nullopt;
-}
 
 std::optional<std::string> density_slip(const fe::Material& m, double speed) {
   for (const OtherUnit& unit : {OtherUnit{1e3, "t/m3"}, OtherUnit{1000.0 / 9.81, "kN/m3, a weight"}, OtherUnit{1e12, "t/mm3"},
@@ -89,6 +79,8 @@ struct KnownMaterial {
 constexpr std::array<KnownMaterial, 4> known_materials = {
     {{7850.0, 5170.0}, {2450.0, 3600.0}, {2700.0, 5080.0}, {480.0, 4800.0}}};
 
+constexpr double alike_in_system = 0.25;  ///< [-] of ln; foams, which have such numbers in SI units, are 0.4 off
+
 /// [-] of ln: least distance to a known material in density and speed together.
 double off_known(double density_kg_m3, double speed_m_s) {
   double least = std::numeric_limits<double>::infinity();
@@ -97,15 +89,41 @@ double off_known(double density_kg_m3, double speed_m_s) {
   return least;
 }
 
+/// @param speed  of waves [m/s]: of the material, or of the structure's mean density where all its mass is in points
+/// @param plausible  [m/s] what a mended unit has to lead to
+std::optional<std::string> modulus_slip(const fe::Material& m, double density_kg_m3, double speed, const Band& plausible) {
+  for (const OtherUnit& unit :
+       {OtherUnit{1e6, "in MPa (N/mm2)"}, OtherUnit{1e9, "in GPa"}, OtherUnit{1e3, "in kPa, or in MPa in a model in kN and m"},
+        OtherUnit{1e-3, "in Pa in a model in kN and m"}, OtherUnit{1e-6, "in Pa in a model in N and mm"}}) {
+    const double mended = speed * std::sqrt(unit.factor);
+    if (!plausible.holds(mended)) continue;
+    // Soft soil is near metals in kPa, and rigid parts are a round number of times as stiff as steel.
+    const bool timber =
+        timber_weight_N_m3.holds(gravity_m_s2 * density_kg_m3) && timber_modulus_Pa.holds(unit.factor * m.youngs_modulus_Pa);
+    const bool metal = usual_speed_m_s.holds(mended) && density_kg_m3 >= heavy_kg_m3;
+    if (m.density_kg_m3 > 0.0 && unit.factor == 1e3 && !metal && !timber) continue;
+    if (m.density_kg_m3 > 0.0 && unit.factor < 1.0 && !timber && off_known(density_kg_m3, mended) > alike_in_system) continue;
+    const bool own = m.density_kg_m3 > 0.0, soft = unit.factor > 1.0;
+    return fmt::format(
+        "material '{}' has E = {:g} Pa, so that waves run at {:.3g} m/s in it{}; steel has 5200, concrete 3500: is E {}{}? {}",
+        m.name, m.youngs_modulus_Pa, speed, own ? "" : " with the mass of the points", unit.name,
+        own || soft ? "" : ", or are the masses in tonnes",
+        soft  ? "Give pascals"
+        : own ? "Give it in the model's units; a part that is meant to be rigid may keep it"
+              : "Give both in the model's units");
+  }
+  return std::nullopt;
+}
+
 /// A unit in which a density may have been given by mistake: weight per volume, or another unit of mass.
 struct WeightUnit {
   double density_kg_m3;                    ///< of one of it
   const char* name;                        ///< "lbf/in3"
   double modulus_Pa = 1.0;                 ///< of one unit of stress in a system without a unit of mass of its own
-  const char *system = "", *divisor = "";  ///< its name; "" among numbers in SI units
+  const char *system = "", *divisor = "";  ///< its name, "" among numbers in SI units; "": a mass, not a weight
 };
 /// Among SI numbers first; then those of the systems.
-constexpr std::array<WeightUnit, 9> weight_units = {
+constexpr std::array<WeightUnit, 11> weight_units = {
     {{1.0 / gravity_m_s2, "a weight in N/m3 (divide by 9.81)"},
      {1.0 / gravity_in_s2, "a weight in lbf/in3 (is PARAM,WTMASS,.00259 missing?)"},
      {1e-3 / gravity_m_s2, "a weight in N/mm3 (divide by 9810)"},
@@ -114,13 +132,14 @@ constexpr std::array<WeightUnit, 9> weight_units = {
      {1e6, "kgf/cm3", 98066.5, "kgf and cm", "980.665"},
      {1e3, "tonf/m3", 9806.65, "tonf and m", "9.80665"},
      {1e3 / gravity_m_s2, "kN/m3", 1e3, "kN and m", "9.80665"},
-     {1e9 / gravity_m_s2, "N/mm3", 1e6, "N and mm", "9806.65"}}};
+     {1e9 / gravity_m_s2, "N/mm3", 1e6, "N and mm", "9806.65"},
+     {1e3, "t/m3", 1e3, "kN and m"},
+     {1e-3, "kg/m3", 1e-3, "N and m"}}};
 
 /// A density that is a weight per volume, or in another unit of mass: in kg/m3 the material is like a known one.
 std::optional<std::string> weight_slip(const fe::Material& m, double speed) {
   const bool timber = timber_weight_N_m3.holds(m.density_kg_m3) && timber_modulus_Pa.holds(m.youngs_modulus_Pa);
   const bool heavy = m.density_kg_m3 >= densest_kg_m3 || timber;
-  constexpr double alike_in_system = 0.25;  ///< foams, which have such numbers in SI units, are 0.4 off
   const WeightUnit* best = nullptr;
   double nearest = 0.5;
   for (const WeightUnit& unit : weight_units) {
@@ -129,6 +148,11 @@ std::optional<std::string> weight_slip(const fe::Material& m, double speed) {
     if (*unit.system == '\0' ? heavy && off < nearest : best == nullptr && off <= alike_in_system) nearest = off, best = &unit;
   }
   if (best == nullptr) return std::nullopt;
+  if (*best->system != '\0' && *best->divisor == '\0')
+    return fmt::format(
+        "material '{}' has E = {:.4g} Pa and a density of {:.4g} kg/m3: are the numbers in {}, with densities in {}? "
+        "Frequencies hold; for masses and forces give them in the model's units",
+        m.name, m.youngs_modulus_Pa, m.density_kg_m3, best->system, best->name);
   if (*best->system != '\0')
     return fmt::format(
         "material '{}' has E = {:.4g} and a density of {:.4g}: is the density a weight in {}, among numbers in {}? Divide it "
@@ -141,30 +165,55 @@ std::optional<std::string> weight_slip(const fe::Material& m, double speed) {
       m.name, m.density_kg_m3, speed, best->name);
 }
 
-/// Mean density of the structure: all mass that is in it over the volume of its elements.
-std::optional<std::string> mean_density_slip(const fe::Model& model) {
+/// Volume of bars and beams with their own and the points' mass; nothing for a model with solids or shells, where masses lie on
+/// what is not drawn.
+struct Drawn {
   double volume_m3 = 0.0, own_kg = 0.0, points_kg = 0.0, length_m = 0.0;
+  [[nodiscard]] double density_kg_m3() const { return (own_kg + points_kg) / volume_m3; }
+};
+
+std::optional<Drawn> drawn(const fe::Model& model) {
+  Drawn all;
   for (const fe::Element& e : model.elements) {
     const auto at = [&](std::size_t i) { return model.nodes[static_cast<std::size_t>(e.nodes[i])].x_m; };
-    if (e.type == fe::ElementType::solid || e.type == fe::ElementType::shell)
-      return std::nullopt;  // masses lie on what is not drawn
-    const double length = (at(1) - at(0)).norm();
-    length_m += length;
-    volume_m3 += length * model.sections[static_cast<std::size_t>(e.section)].area_m2;
-    own_kg += length * model.sections[static_cast<std::size_t>(e.section)].area_m2 *
-              model.materials[static_cast<std::size_t>(e.material)].density_kg_m3;
+    if (e.type == fe::ElementType::solid || e.type == fe::ElementType::shell) return std::nullopt;
+    const double length = (at(1) - at(0)).norm(), area = model.sections[static_cast<std::size_t>(e.section)].area_m2;
+    all.length_m += length;
+    all.volume_m3 += length * area;
+    all.own_kg += length * area * model.materials[static_cast<std::size_t>(e.material)].density_kg_m3;
   }
-  for (const fe::PointMass& mass : model.masses) points_kg += mass.mass_kg;
-  if (!(volume_m3 > 0.0) || points_kg < own_kg) return std::nullopt;
-  const double mean = (own_kg + points_kg) / volume_m3;
+  for (const fe::PointMass& mass : model.masses) all.points_kg += mass.mass_kg;
+  return all.volume_m3 > 0.0 ? std::optional(all) : std::nullopt;
+}
+
+/// Mean density of the structure: all mass that is in it over the volume of its elements.
+std::optional<std::string> mean_density_slip(const Drawn& all) {
   // A steel girder that carries its deck as masses has up to ten times its own mass; as weights they have a hundred times it.
   constexpr double most_of_steel = 40.0, steel_kg_m3 = 7850.0;
-  if (mean < most_of_steel * steel_kg_m3) return std::nullopt;
+  if (all.points_kg < all.own_kg || all.density_kg_m3() < most_of_steel * steel_kg_m3) return std::nullopt;
+  const double mass_kg = all.own_kg + all.points_kg;
   return fmt::format(
       "the mass of {:.4g} kg ({:.4g} kg per metre of its members) is a mean density of {:.3g} kg/m3 of what is drawn; steel "
       "has "
       "7850: are the masses weights in newtons? Give kilograms; in a deck in N and mm, tonnes",
-      own_kg + points_kg, (own_kg + points_kg) / length_m, mean);
+      mass_kg, mass_kg / all.length_m, all.density_kg_m3());
+}
+
+/// @param all  nothing where the volume is not known
+std::optional<std::string> material_slip(const fe::Material& m, const std::optional<Drawn>& all) {
+  if (!(m.density_kg_m3 > 0.0)) {
+    // A part without mass may be as stiff as one likes, unless no part has any: then it is the structure.
+    if (!all || all->own_kg > 0.0 || !(all->points_kg > 0.0)) return std::nullopt;
+    const double carried_m_s = std::sqrt(m.youngs_modulus_Pa / all->density_kg_m3());
+    const bool usual = carried_m_s > slowest_carrying_m_s && carried_m_s < material_speed_m_s.high;
+    return usual ? std::nullopt : modulus_slip(m, all->density_kg_m3(), carried_m_s, carrying_speed_m_s);
+  }
+  const double speed = std::sqrt(m.youngs_modulus_Pa / m.density_kg_m3);
+  if (const auto weight = weight_slip(m, speed)) return weight;  // E in kPa would explain the speed too, but not the density
+  if (speed < usual_speed_m_s.low) return modulus_slip(m, m.density_kg_m3, speed, material_speed_m_s);
+  if (speed <= material_speed_m_s.high) return std::nullopt;
+  if (const auto density = density_slip(m, speed)) return density;
+  return modulus_slip(m, m.density_kg_m3, speed, material_speed_m_s);
 }
 
 double span_of(const fe::Model& model) {
@@ -302,22 +351,14 @@ double highest_of_band(Eigen::VectorXd measured_Hz) {
 std::vector<std::string> unit_slips(const fe::Model& model) {
   std::vector<std::string> slips;
   if (model.nodes.empty()) return slips;
+  const std::optional<Drawn> all = drawn(model);
   std::set<int> used;
   for (const fe::Element& e : model.elements) used.insert(e.material);
   for (const int at : used) {
     const fe::Material& m = model.materials[static_cast<std::size_t>(at)];
-    if (!(m.density_kg_m3 > 0.0)) continue;  // a part without mass may be as stiff as one likes
-    const double speed = std::sqrt(m.youngs_modulus_Pa / m.density_kg_m3);
-    if (const auto weight = weight_slip(m, speed)) {
-      slips.push_back(*weight);  // a modulus in kPa would explain the speed as well, but not the density
-      continue;
-    }
-    if (speed < usual_speed_m_s.low)
-      if (const auto slip = modulus_slip(m, speed)) slips.push_back(*slip);
-    if (speed > material_speed_m_s.high)
-      if (const auto slip = density_slip(m, speed)) slips.push_back(*slip);
+    if (const auto slip = material_slip(m, all)) slips.push_back(*slip);
   }
-  if (const auto slip = mean_density_slip(model)) slips.push_back(*slip);
+  if (const auto slip = all ? mean_density_slip(*all) : std::nullopt) slips.push_back(*slip);
   if (const auto slip = length_slip(model)) slips.push_back(*slip);
   if (const auto slip = section_slip(model)) slips.push_back(*slip);
   return slips;

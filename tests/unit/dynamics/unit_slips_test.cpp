@@ -58,6 +58,38 @@ TEST(UnitSlips, ModulusInAnotherUnit) {
   }
   model.materials[0] = {"concrete", 33e3, 14e3, 0.2, 2500.0};
   expect_slip(model, "is E in MPa");
+  model.materials[0] = {"spruce", 11e6, 0.7e6, 0.3, 450.0};
+  expect_slip(
+      model,
+      "material 'spruce' has E = 1.1e+07 Pa, so that waves run at 156 m/s in it; steel has 5200, concrete 3500: is E in kPa");
+}
+
+/// Moduli in pascals of a model in kN and m, or in N and mm, as they come out in SI units.
+TEST(UnitSlips, ModulusAThousandTimesTooLarge) {
+  fe::Model model = beam();
+  for (const auto& [modulus, density] : {std::pair(210e12, 7850.0), std::pair(33e12, 2500.0), std::pair(11e12, 450.0)}) {
+    model.materials[0] = {"girder", modulus, modulus / 2.6, 0.3, density};
+    expect_slip(model, "is E in Pa in a model in kN and m?");
+  }
+  model.materials[0].youngs_modulus_Pa = 210e15;
+  model.materials[0].density_kg_m3 = 7850.0;
+  expect_slip(model, "is E in Pa in a model in N and mm?");
+}
+
+/// All mass of 4.5 times the steel's own is in points: waves of the steel's stiffness run at 5172 m/s / sqrt(4.5) = 2440 m/s.
+TEST(UnitSlips, ModulusOfAStructureWhoseMassIsInPoints) {
+  fe::Model model = beam();
+  model.materials[0].density_kg_m3 = 0.0;
+  for (int i = 0; i <= 10; ++i) model.masses.push_back({"deck", i, 4.5 * 628.0 * 10.0 / 11.0, Eigen::Vector3d::Zero()});
+  EXPECT_TRUE(unit_slips(model).empty());
+  for (const auto& [factor, said] :
+       {std::pair(1e-3, "is E in kPa"), std::pair(1e-6, "is E in MPa"), std::pair(1e3, "is E in Pa in a model in kN")}) {
+    model.materials[0].youngs_modulus_Pa = factor * 210e9;
+    expect_slip(model, said);
+  }
+  model.materials[0].youngs_modulus_Pa = 210e9;
+  for (fe::PointMass& mass : model.masses) mass.mass_kg /= 1000.0;
+  expect_slip(model, "or are the masses in tonnes?");
 }
 
 TEST(UnitSlips, DensityInAnotherUnit) {
@@ -99,9 +131,15 @@ TEST(UnitSlips, WeightsInADeckOfOtherUnits) {
     model.materials[0] = {"m", c.modulus, c.modulus / 2.6, 0.3, c.density};
     expect_slip(model, c.said);
   }
-  // Foams, and steel and concrete in kN, m and t.
-  for (const auto& [modulus, density] :
-       {std::pair(9e7, 80.0), std::pair(2e7, 35.0), std::pair(2.1e8, 7.85), std::pair(3e7, 2.5)}) {
+  for (const double factor :
+       {1e-3, 1e3})  // of both, so that waves are as fast as in the material: frequencies hold, masses do not
+    for (const auto& [modulus, density] : {std::pair(2.1e11, 7850.0), std::pair(3e10, 2500.0)}) {
+      model.materials[0] = {"m", factor * modulus, factor * modulus / 2.6, 0.3, factor * density};
+      expect_slip(model, factor < 1.0 ? "are the numbers in kN and m, with densities in t/m3? Frequencies hold"
+                                      : "are the numbers in N and m, with densities in kg/m3? Frequencies hold");
+    }
+  // Foams.
+  for (const auto& [modulus, density] : {std::pair(9e7, 80.0), std::pair(2e7, 35.0)}) {
     model.materials[0] = {"m", modulus, modulus / 2.6, 0.3, density};
     EXPECT_TRUE(unit_slips(model).empty()) << modulus << " " << density;
   }
