@@ -19,7 +19,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr int no_workbook = 3, no_openpyxl = 4, too_long = 5;  ///< exit codes of spreadsheet.py
+constexpr int no_workbook = 3, no_openpyxl = 4, too_long = 5, empty_sheet = 6;  ///< exit codes of spreadsheet.py
 
 /// The program beside this one: in the source tree, or installed.
 fs::path reader() {
@@ -75,9 +75,11 @@ fs::path csv_of_spreadsheet(const fs::path& file) {
     throw InputError({file.string(), 0, ""}, problem, mend);
   };
   if (code == no_openpyxl)
-    refuse("is a workbook, and openpyxl, which reads it, is not installed",
+    refuse("is a workbook of Excel; the Python package openpyxl, which reads it, is not installed for /usr/bin/python3",
            "apt-get install python3-openpyxl, or save the sheet as CSV");
   if (code == too_long) refuse("has more than 2 GB as text", "save the sheet as CSV, and fewer columns");
+  if (code == empty_sheet)
+    refuse("is a workbook whose first sheet is empty", "move the table to the first sheet, or save its sheet as CSV");
   if (code == no_workbook) refuse("is no workbook that can be read", "save it anew as .xlsx, or the sheet as CSV");
   refuse(fmt::format("cannot be read: python3 ended with {}", code), "save the sheet as CSV");
   return {};

@@ -35,6 +35,16 @@ class WithoutOpenpyxl(unittest.TestCase):
         self.assertIn("apt-get install python3-openpyxl", done.stderr)
 
 
+    def test_the_reader_says_why_it_reads_nothing(self):
+        """A module of that name whose workbook has no sheet, an empty one, or one with a cell; and none that can be imported."""
+        book = "class S:\n    def iter_rows(self, values_only): return {}\nclass B: worksheets = {}\ndef load_workbook(*a, **k): return B\n"
+        for module, code, told in ((book.format("[]", "[]"), 6, ""), (book.format("[(None, None), ()]", "[S()]"), 6, ""), (book.format("[(None,), ('a', 1.0)]", "[S()]"), 0, "a,1\n"),
+                                   ("raise ImportError\n", 4, "")):
+            (self.folder / "openpyxl.py").write_text(module)
+            done = subprocess.run([sys.executable, "-B", READER, "book.xlsx"], capture_output=True, text=True, env={**os.environ, "PYTHONPATH": str(self.folder)}, timeout=60)
+            self.assertEqual((done.returncode, done.stdout), (code, told), done.stderr)
+
+
 @unittest.skipUnless(openpyxl, "no openpyxl here")
 class Workbook(unittest.TestCase):
     def setUp(self):

@@ -1,7 +1,7 @@
 """The first sheet of a workbook (.xlsx) as CSV on stdout: python3 -I spreadsheet.py BOOK.
 
 The executables call it as a process. Formulas give the value that the workbook keeps of them, dates and times are ISO 8601, empty
-cells and rows at the end are left out. Exit codes: 3 no workbook, 4 no openpyxl, 5 longer than a table may be.
+cells and rows at the end are left out. Exit codes: 3 no workbook, 4 no openpyxl, 5 longer than a table may be, 6 nothing on the first sheet.
 """
 import csv
 import datetime
@@ -30,9 +30,9 @@ def main(path):
     except ImportError:
         return 4
     try:
-        rows = openpyxl.load_workbook(path, read_only=True, data_only=True).worksheets[0].iter_rows(values_only=True)
-        written = 0
-        for row in rows:
+        sheets = openpyxl.load_workbook(path, read_only=True, data_only=True).worksheets  # none where there are charts alone
+        written = filled = 0
+        for row in sheets[0].iter_rows(values_only=True) if sheets else ():
             cells = [text(value) for value in row]
             while cells and not cells[-1]:
                 cells.pop()
@@ -41,11 +41,12 @@ def main(path):
             written += len(line.getvalue())
             if written > LONGEST:
                 return 5
+            filled += bool(cells)
             if cells:
                 sys.stdout.write(line.getvalue())
     except Exception:  # openpyxl has an error of its own for each way in which a file is no workbook
         return 3
-    return 0
+    return 0 if filled else 6
 
 
 if __name__ == "__main__":
