@@ -10,6 +10,7 @@
 
 #include "core/lists.hpp"
 #include "fe/beam_frame.hpp"
+#include "model_io/equal_masses.hpp"
 #include "model_io/names.hpp"
 #include "model_io/nastran_properties.hpp"
 
@@ -352,6 +353,7 @@ void read_scalar_mass(Parts& parts, const Card& card) {
 void finish_masses(Parts& parts) {
   for (const auto& [node, m] : parts.added_mass)
     add_mass(parts, fmt::format("cmass_grid_{}", parts.model.nodes[fe::slot(node)].id), node, m);
+  group_equal_masses(parts.model.masses);
 }
 
 void read_direct_matrices(Parts& parts) {

@@ -16,6 +16,7 @@
 #include "model_io/deck_card.hpp"
 #include "model_io/deck_model.hpp"
 #include "model_io/deck_units.hpp"
+#include "model_io/equal_masses.hpp"
 #include "model_io/profiles.hpp"
 #include "model_io/sap2000_constraints.hpp"
 
@@ -419,6 +420,7 @@ class SapReader {
                            stiffness);
       }
     for (const SapRow& row : tables_.rows("JOINT ADDED MASS ASSIGNMENTS")) read_mass(row);
+    group_equal_masses(deck_.model.masses);
   }
 
   /// A point mass, or a matrix where the three masses differ.
