@@ -141,6 +141,19 @@ class Diagnosis(unittest.TestCase):
             self.assertEqual(result["verdict"], "none", f"seed {seed}: {result['message']}")
             self.assertEqual(result["effects"], [])
 
+    def test_a_mode_without_counterpart_has_no_prediction(self):
+        """A seventh mode far above all of the chain's, whose shape none of them has: nothing is predicted for it, and everything for the others."""
+        write_features(self.folder / "alone")
+        with open(self.folder / "alone" / "rows.csv", "a") as rows:
+            rows.write("frequency_Hz,7,,calm,300,0.9\n" + "".join(f"shape,7,c{d + 1},calm,{v},0.02\n" for d, v in enumerate((1, 0.1, 0.9, 0.8, 0.1, 0.7, 0.1, 0.9))))
+        done, out = self.run_step("alone")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        with open(out / "residuals.csv", newline="") as table:
+            for row in csv.DictReader(table):
+                cells = [row[f"{cell}{side}"] for cell in ("", "residual_", "beyond_") for side in ("before", "after")]
+                self.assertEqual(cells == [""] * 6, row["mode"] == "7", row)
+                self.assertTrue(row["mode"] == "7" or "" not in cells, row)
+
     def test_a_soft_group_is_named_and_sized(self):
         result, out = self.diagnose("soft", stiffness={"g5": 0.6})
         self.assert_found(result, "stiffness", "group:g5", "factor", 0.6, 0.06)

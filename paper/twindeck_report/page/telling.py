@@ -56,10 +56,10 @@ def telling(study: Study, told: dict | None) -> tuple:
 
 
 def _of_rows(study: Study, told: dict) -> Telling | None:
-    """The rows that step 9 used; frequencies and MAC of held-out predictions in the place of fitted ones where step 9 tells them (gain.raw)."""
+    """The rows that step 9 used; frequencies and MAC of held-out predictions in the place of fitted ones where step 9 tells them (gain.raw).
+    Cells of a mode without counterpart in the model are empty."""
     table = study.step_csv("s9_diagnosis/residuals.csv", ["type", "mode", "channel", "condition", "held_out", "value", "std", "before", "after", "residual_before", "residual_after"])
     table = table.assign(mode=table["mode"].map(_mode), condition=table["condition"].fillna("").astype(str))
-    table = _without_made_up(table, _alone(study))
     shapes = _shapes(table)
     held = {(_mode(r["mode"]), str(r["condition"])): r for r in (told.get("gain") or {}).get("raw") or []}
     rows = []
@@ -80,24 +80,6 @@ def _of_rows(study: Study, told: dict) -> Telling | None:
     if len(held_damping):
         return Telling(rows, before, after, tuple(map(float, held_damping.mean(axis=0))), True, _measured_shapes(table))
     return Telling(rows, before, after, _damping(table[table["type"] == "damping_ratio_pct"]), shapes=_measured_shapes(table))
-
-
-def _alone(study: Study) -> dict:
-    """side -> {(mode, condition)} of measured modes that step 9 found no mode of the model for."""
-    if not (study.results / "s9_diagnosis/pairs.csv").is_file():
-        return {}
-    pairs = study.step_csv("s9_diagnosis/pairs.csv", ["mode", "condition", "before_Hz", "after_Hz"])
-    pairs = pairs.assign(mode=pairs["mode"].map(_mode), condition=pairs["condition"].fillna("").astype(str))
-    return {side: set(pairs[~(pairs[f"{side}_Hz"] > 0.0)][["mode", "condition"]].itertuples(index=False, name=None)) for side in ("before", "after")}
-
-
-def _without_made_up(table: pd.DataFrame, alone: dict) -> pd.DataFrame:
-    """Step 9 gives a mode without counterpart its measured values as predictions, so that its residuals are 0. They are none: NaN."""
-    table = table.copy()
-    keys = list(zip(table["mode"], table["condition"]))
-    for side, modes in alone.items():
-        table.loc[[key in modes for key in keys], side] = np.nan
-    return table
 
 
 def _damping(table: pd.DataFrame) -> tuple | None:

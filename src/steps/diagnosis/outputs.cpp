@@ -192,20 +192,26 @@ std::string listed(const diagnosis::Effect& effect, bool several_states, bool in
 
 /// residuals.csv: `type,mode,channel,condition,held_out,value,std,before,after,residual_before,residual_after,beyond_before,
 /// beyond_after`: predictions in the row's own unit; residuals over the standard deviation of identification; beyond: 1 where
-/// it lies outside the limit that all rows together keep with 99 % (Sidak).
+/// it lies outside the limit that all rows together keep with 99 % (Sidak). Cells of a side are empty in rows of a mode that
+/// has no counterpart in its model: nothing is predicted there.
 void write_residuals(const Inference& inference, const Diagnosis& result, const std::filesystem::path& file) {
   io::CsvWriter csv({"type", "mode", "channel", "condition", "held_out", "value", "std", "before", "after", "residual_before",
                      "residual_after", "beyond_before", "beyond_after"});
   const auto& map = inference.map();
   const VectorXd e0 = standardised_residuals(inference, result.before), e1 = standardised_residuals(inference, result.after);
   const double limit = diagnosis::sidak_limit(map.features().rows.size());
+  const auto told = [](const diagnosis::Fit& fit, Index row, double value) {
+    return contains(fit.all.open, static_cast<int>(row)) ? std::nullopt : std::optional<double>(value);
+  };
   for (std::size_t r = 0; r < map.features().rows.size(); ++r) {
     const Row& row = map.features().rows[r];
     const auto i = static_cast<Index>(r);
     csv.row({name_of(row.type), row.mode, channel_of(inference, row),
              map.features().conditions[static_cast<std::size_t>(row.condition)].name, row.held_out ? 1 : 0, row.value, row.std,
-             own_unit(row, result.before.all.g[i]), own_unit(row, result.after.all.g[i]), e0[i], e1[i],
-             std::abs(e0[i]) > limit ? 1 : 0, std::abs(e1[i]) > limit ? 1 : 0});
+             told(result.before, i, own_unit(row, result.before.all.g[i])),
+             told(result.after, i, own_unit(row, result.after.all.g[i])), told(result.before, i, e0[i]),
+             told(result.after, i, e1[i]), told(result.before, i, std::abs(e0[i]) > limit ? 1.0 : 0.0),
+             told(result.after, i, std::abs(e1[i]) > limit ? 1.0 : 0.0)});
   }
   csv.save(file);
 }
