@@ -34,6 +34,7 @@ INPUTS_s7_aerodynamics := $(call FILES, data/$(STUDY)/aero/*.csv)
 # Records of one's own, which step 3 reads by itself: data/<study>/campaign/.
 ifneq ($(wildcard data/$(STUDY)/campaign/campaign.toml),)
 INPUTS_s3_identification := $(call FILES,data/$(STUDY)/campaign/* data/$(STUDY)/campaign/records/*)
+INPUTS_s1_model := $(call FILES,data/$(STUDY)/campaign/channels.csv)
 endif
 
 # A study of outside records makes its inputs from them once: make s9 STUDY=gt_pedestrian_bridge DATA=dir

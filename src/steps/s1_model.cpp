@@ -10,6 +10,7 @@
 #include "ponte/generator.hpp"
 #include "runner/run_step.hpp"
 #include "runner/study.hpp"
+#include "steps/model/channels_on_model.hpp"
 #include "steps/model/exports.hpp"
 #include "steps/model/model_config.hpp"
 #include "steps/model/model_tables.hpp"
@@ -54,6 +55,7 @@ runner::Computation read(const steps::ModelConfig& config, runner::StepContext& 
   const dynamics::ReadModel model = dynamics::with_displacements(steps::load_study_model(context, config.variant),
                                                                  config.displacements, static_cast<int>(config.load_steps));
   const bool is_bridge = !context.model && runner::read_study(context.study).model_generator == "ponte";
+  steps::warn_of_channels_off_the_model(context, model);
   if (is_bridge) steps::refuse_unknown_meshes(runner::read_study(context.study), config.variant, config.meshes);
   return [&config, &context, model, is_bridge] { return run(config, model, is_bridge, context); };
 }
