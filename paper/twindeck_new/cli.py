@@ -8,7 +8,7 @@ import tempfile
 from pathlib import Path
 
 from . import model as models
-from .campaign import all_known, write_campaign
+from .campaign import all_known, copied_name, write_campaign
 from .errors import InputError
 from .inspection import inspected
 from .sensors import table_of_sensors
@@ -45,7 +45,7 @@ def _new(name: str, files: list, bin_folder: Path) -> int:
         workflow.mkdir()
         data.mkdir()
         missing = all_known(tables, records)
-        written = write_campaign(records, tables, data / "campaign") if records else None
+        written = write_campaign(records, tables, data / "campaign", source.nodes if source else None) if records else None
         settings = _settings(bin_folder, data / "campaign", targets[1] / "campaign", records)
         line = models.copy_model(source, data) if source else None
         missing += (written.missing if written else ["records: none given; state measured modes in features/ or take s3_identification in with records"])
@@ -54,17 +54,15 @@ def _new(name: str, files: list, bin_folder: Path) -> int:
         for made, place in zip((workflow, data), targets):
             place.parent.mkdir(exist_ok=True)
             shutil.move(made, place)
-    _told(name, targets, records, settings, missing)
+    _told(name, targets, records, settings, (source.read if source else []) + (written.read if written else []), missing)
     return 0
 
 
 def _sorted_out(files: list, bin_folder: Path, title: str) -> tuple:
     """(model or None, tables of sensors, records)"""
     source, tables, records = None, [], []
-    for file in files:
-        if not file.exists():
-            raise InputError(f"{file} is not there; give records, a table of sensors, a deck or a model folder")
-        if file.is_dir() or models.is_deck(file):
+    for file in _files_in(files):
+        if models.is_model_folder(file) or models.is_deck(file):
             if source is not None:
                 raise InputError(f"{file}: a second model beside {source.source}; give one")
             source = models.read_model(bin_folder, file, title)
@@ -74,10 +72,22 @@ def _sorted_out(files: list, bin_folder: Path, title: str) -> tuple:
             records.append(inspected(bin_folder, file))
     if not records and source is None:
         raise InputError(f"{files[0]}: neither a record nor a model; give at least one of the two")
-    twice = next((r.file for i, r in enumerate(records) if any(r.file.name == o.file.name for o in records[:i])), None)
+    copies = [copied_name(r, records) for r in records]
+    twice = next((r.file for i, r in enumerate(records) if copies[i] in copies[:i]), None)
     if twice is not None:
         raise InputError(f"{twice}: a second record of that name; rename one of them")
     return source, tables, records
+
+
+def _files_in(files: list) -> list:
+    """The files themselves, and in the place of a folder that is no model all files in it."""
+    found = []
+    for file in files:
+        if not file.exists():
+            raise InputError(f"{file} is not there; give records, a table of sensors, a deck or a model folder")
+        inside = file.is_dir() and not models.is_model_folder(file)
+        found += sorted(f for f in file.rglob("*") if f.is_file() and not f.name.startswith(".")) if inside else [file]
+    return found
 
 
 def _settings(bin_folder: Path, campaign: Path, place: Path, records: list) -> Settings | None:
@@ -99,19 +109,21 @@ def _with_own_files(text: str, campaign: Path, place: Path, records: list) -> st
     folders = (str(campaign.resolve()), str(campaign))
     before = "(?:" + "|".join(re.escape(f"{folder}/") for folder in folders) + r"|(?<![\w/.]))"  # the step names files of the campaign without its folder too
     for record in records:
-        text = re.sub(before + re.escape(f"records/{record.file.name}") + r"(?![\w.])", lambda _, file=record.file: str(file), text)
+        text = re.sub(before + re.escape(f"records/{copied_name(record, records)}") + r"(?![\w.])", lambda _, file=record.file: str(file), text)
     for folder in folders:
         text = text.replace(folder, str(place))
     return text
 
 
-def _told(name: str, targets: list, records: list, settings: Settings | None, missing: list) -> None:
+def _told(name: str, targets: list, records: list, settings: Settings | None, read: list, missing: list) -> None:
     for record in records:
         print(f"record   {record.file.name}: {len(record.columns)} channels, {record.samples} samples, " + (f"{record.rate_Hz:.6g} Hz" if record.rate_Hz else "rate unknown"))
     if settings is not None and settings.peaks_Hz:
         sampling = "step 3 chooses decimation and block length" if settings.by_step else f"decimation {settings.decimation}, block_rows {settings.block_rows}"
         print(f"band     {len(settings.peaks_Hz)} peaks from {settings.peaks_Hz[0]:.4g} to {settings.peaks_Hz[-1]:.4g} Hz: {sampling}, maximum_order {settings.maximum_order}")
     print(f"written  {targets[0]}/, {targets[1]}/")
+    for line in read:
+        print(f"read     {line}")
     for line in missing:
         print(f"missing  {line}")
     run = os.environ.get("TWINDECK_RUN", "make all STUDY=")

@@ -1,4 +1,5 @@
 """What a record holds, as `s3_identification --inspect FILE` tells it."""
+import math
 import re
 import subprocess
 from dataclasses import dataclass
@@ -6,8 +7,9 @@ from pathlib import Path
 
 from .errors import InputError
 
-ROW = re.compile(r"^(?P<name>.*\S)\s+(?P<unit>\S+)\s+(?P<samples>\d+)\s+\d+\s+\d+\s+\d+(\s+(?:[-+]?[0-9.]+(?:e[-+]?\d+)?|[-+]?(?:nan|inf))){2}(\s.*)?$")
+ROW = re.compile(r"^(?P<name>.*\S)\s+(?P<unit>\S+)\s+(?P<samples>\d+)\s+\d+\s+\d+\s+\d+\s+(?P<mean>NUMBER)\s+NUMBER(\s.*)?$".replace("NUMBER", r"(?:[-+]?[0-9.]+(?:e[-+]?\d+)?|[-+]?(?:nan|inf))"))
 UNNAMED = re.compile(r"column \d+$")  # how the step names a column that the file does not
+CELSIUS = re.compile(r"(°|deg|grad)? ?(c|celsius)", re.IGNORECASE)
 RATE = re.compile(r"rate\s+([0-9.eE+-]+) Hz")
 
 
@@ -18,6 +20,7 @@ class Record:
     columns: tuple  # names in the file
     units: tuple  # "?" where the file does not tell one
     samples: int
+    temperature_C: float | None = None  # mean of a column in degrees Celsius, which is no channel
 
     @property
     def named(self) -> bool:
@@ -40,4 +43,6 @@ def read(file: Path, lines: list) -> Record:
     if not rows:
         raise InputError(f"{file}: no channel is found in it")
     rate = next((float(found[1]) for line in lines[:start] if (found := RATE.match(line))), None)
-    return Record(file, rate, tuple(r["name"] for r in rows), tuple(r["unit"] for r in rows), max(int(r["samples"]) for r in rows))
+    warm = [r for r in rows if CELSIUS.fullmatch(r["unit"]) and not UNNAMED.match(r["name"])]
+    rows = [r for r in rows if r not in warm] or rows
+    return Record(file, rate, tuple(r["name"] for r in rows), tuple(r["unit"] for r in rows), max(int(r["samples"]) for r in rows), next((mean for r in warm if math.isfinite(mean := float(r["mean"]))), None))

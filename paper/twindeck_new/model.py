@@ -1,19 +1,22 @@
 """The model as step 1 reads it: a model folder, or a deck, which gets a file of parameters beside it."""
+import json
 import re
 import shutil
 import subprocess
 import tempfile
 import tomllib
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from pathlib import Path
 
 import pandas as pd
 
 from .errors import InputError
+from .places import Nodes, nodes_of
 
 DECKS = (".inp", ".bdf", ".nas", ".blk", ".cdb", ".s2k", ".$2k")
 OTHERS = (".dat", ".mac", ".ans", ".txt")  # a deck, a record or a table
 CARDS = re.compile(rb"^\s*(BEGIN BULK|GRID[ ,*]|/PREP|NBLO|EBLO|ETBL|ET,)", re.IGNORECASE | re.MULTILINE)  # as step 1 tells a deck
+UNITS = (("m", "N"), ("mm", "N"), ("m", "kN"), ("in", "lbf"))  # length and force of a deck that does not say them
 STIFFNESS_RANGE, DENSITY_RANGE = 0.2, 0.1  # [-] either way: what a modulus of elasticity and a density of a usual material may be off; stated as a start
 
 
@@ -23,6 +26,8 @@ class Model:
     is_folder: bool
     parameters: str  # text of model.toml, or of the file beside a deck
     missing: list  # lines of what the engineer has to state
+    nodes: Nodes | None = None
+    read: list = field(default_factory=list)  # what was filled in, a line each
 
 
 def is_deck(path: Path) -> bool:
@@ -30,21 +35,56 @@ def is_deck(path: Path) -> bool:
     return path.suffix.lower() in DECKS or (path.suffix.lower() in OTHERS and CARDS.search(path.read_bytes()) is not None)
 
 
+def is_model_folder(path: Path) -> bool:
+    return path.is_dir() and any((path / name).is_file() for name in ("model.toml", "nodes.csv", "elements.csv"))
+
+
 def read_model(bin_folder: Path, source: Path, title: str) -> Model:
     """@throws InputError  with step 1's own line where it cannot read the model"""
+    beside = source / "model.toml" if source.is_dir() else source.with_suffix(".toml")
+    own, read = beside.read_text(encoding="utf-8") if beside.is_file() else "", []
     with tempfile.TemporaryDirectory() as folder:
         out = Path(folder) / "s1_model"
-        run = subprocess.run([str(bin_folder / "s1_model"), "--model", str(source), "--out", str(out), "--set", "n_modes=1", "--quiet"], capture_output=True, text=True, check=False)
-        if run.returncode not in (0, 1):
-            raise InputError((run.stderr.strip().splitlines() or [f"{source}: step 1 cannot read it"])[-1])
-        beside = source / "model.toml" if source.is_dir() else source.with_suffix(".toml")
-        own = beside.read_text(encoding="utf-8") if beside.is_file() else ""
+        refusal = _step_1(bin_folder, source, out)
+        if "write [units]" in refusal and (units := _likely_units(bin_folder, source, own)) is not None:
+            own, refusal = own + units, _step_1(bin_folder, _with_text(source, own + units, Path(folder) / "deck"), out)
+            read.append(f"{beside.name}: {' '.join(units.split())}: the only units in which the materials of {source.name} are those of a structure")
+        if refusal:
+            raise InputError(refusal)
         has = tomllib.loads(own)
-        materials = out / "model/materials.csv"
+        materials, nodes = out / "model/materials.csv", nodes_of(out / "model")
         if has.get("parameter") or has.get("matrices") or not materials.is_file():
-            return Model(source, source.is_dir(), own, [] if "parameter" in has else [f"parameters with bounds in {beside.name}: without them steps 5 and 6 have nothing to update"])
+            return Model(source, source.is_dir(), own, [] if "parameter" in has else [f"parameters with bounds in {beside.name}: without them steps 5 and 6 have nothing to update"], nodes, read)
         text = ("" if "title" in has else f'title = "{title}"\n') + own
-        return Model(source, source.is_dir(), *_parameters(pd.read_csv(materials), text))
+        return Model(source, source.is_dir(), *_parameters(pd.read_csv(materials), text), nodes, read)
+
+
+def _step_1(bin_folder: Path, source: Path, out: Path) -> str:
+    """Runs step 1. @return its line where it refuses the model, else \"\""""
+    run = subprocess.run([str(bin_folder / "s1_model"), "--model", str(source), "--out", str(out), "--set", "n_modes=1", "--quiet"], capture_output=True, text=True, check=False)
+    return "" if run.returncode in (0, 1) else (run.stderr.strip().splitlines() or [f"{source}: step 1 cannot read it"])[-1]
+
+
+def _with_text(deck: Path, text: str, folder: Path) -> Path:
+    """`deck` in `folder`, with all files that lie beside it, and `text` in the file of its name."""
+    folder.mkdir()
+    for file in deck.resolve().parent.iterdir():
+        if file.name != deck.with_suffix(".toml").name:
+            (folder / file.name).symlink_to(file)
+    (folder / deck.with_suffix(".toml").name).write_text(text, encoding="utf-8")
+    return folder / deck.name
+
+
+def _likely_units(bin_folder: Path, deck: Path, own: str) -> str | None:
+    """The table [units] with which step 1 has no doubt of the model; None where it doubts all, or several are possible."""
+    found = []
+    for length, force in UNITS:
+        text = f'\n[units]\nlength = "{length}"\nforce = "{force}"\n'
+        with tempfile.TemporaryDirectory() as folder:
+            out = Path(folder) / "s1_model"
+            if not _step_1(bin_folder, _with_text(deck, own + text, Path(folder) / "deck"), out) and not json.loads((out / "manifest.json").read_text(encoding="utf-8")).get("warnings"):
+                found.append(text)
+    return found[0] if len(found) == 1 else None
 
 
 def _parameters(materials, text: str) -> tuple:

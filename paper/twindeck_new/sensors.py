@@ -1,74 +1,87 @@
 """Where the sensors sat and along what they measured: from a table (CSV, tab, spreadsheet) or from the nodes of a universal file."""
 import re
-from dataclasses import dataclass
+import zipfile
+from dataclasses import dataclass, field
 from pathlib import Path
 
 import pandas as pd
 
 from .errors import InputError
+from .places import along, split_name
 
-NAMES = {"channel": ("channel", "sensor", "name", "kanal", "id"), "x_m": ("x_m", "x", "x [m]", "x (m)"), "y_m": ("y_m", "y", "y [m]", "y (m)"),
-         "z_m": ("z_m", "z", "z [m]", "z (m)"), "direction": ("direction", "dir", "axis", "richtung"), "dx": ("dx",), "dy": ("dy",), "dz": ("dz",),
-         "point": ("point", "node", "location"), "unit": ("unit", "einheit"), "gain": ("gain",), "reference": ("reference", "ref")}
-DIRECTIONS = {"x": (1, 0, 0), "y": (0, 1, 0), "z": (0, 0, 1), "vertical": (0, 0, 1), "up": (0, 0, 1), "down": (0, 0, -1)}
-FIELDS = ("point", "x_m", "y_m", "z_m", "dx", "dy", "dz", "unit", "gain", "reference")
+PLACE = re.compile(r"([xyz])(?:[ _]*[\[(]?(m|cm|mm)[\])]?)?")  # x, x_m, x [mm], y (cm)
+LENGTHS_M = {"m": 1.0, "cm": 1e-2, "mm": 1e-3}
+NAMES = {"channel": ("channel", "sensor", "name", "kanal", "id"), "direction": ("direction", "dir", "axis", "richtung"), "node": ("node", "knoten", "grid"), "setup": ("setup", "aufbau"), "dx": ("dx",), "dy": ("dy",), "dz": ("dz",),
+         "point": ("point", "location"), "unit": ("unit", "einheit"), "gain": ("gain",), "reference": ("reference", "ref")}
+PACKAGES = {".xlsx": "openpyxl", ".ods": "odf"}
+FIELDS = ("point", "node", "x_m", "y_m", "z_m", "dx", "dy", "dz", "unit", "gain", "reference")
 
 
 @dataclass(frozen=True)
 class Sensors:
     file: Path
-    rows: dict  # channel (as the table or file names it) -> {field: text}
+    rows: dict  # channel (as the table or file names it), or the point of several channels -> {field: text}
+    of_setup: dict = field(default_factory=dict)  # setup -> the same, of sensors that were moved between setups
+
+    def told(self, names: tuple, setup: str | None) -> dict:
+        """The row of the first of `names` that the table has, or of the point that it names: A3 for A3_z."""
+        for name in (*names, *(split_name(n)[0] for n in names)):
+            for rows in (self.of_setup.get(setup, {}), self.rows):
+                if name in rows:
+                    return rows[name]
+        return {}
 
 
 def table_of_sensors(file: Path) -> Sensors | None:
     """None where the file is no such table: it needs a column of channels, and of places or directions."""
     try:
-        if file.suffix.lower() in (".xlsx", ".ods"):
+        if file.suffix.lower() in PACKAGES:
             frame = pd.read_excel(file, dtype=str)
         elif file.suffix.lower() in (".csv", ".txt", ".tsv"):
             frame = pd.read_csv(file, sep=None, engine="python", dtype=str, nrows=10000, encoding_errors="replace")
         else:
             return None
     except ImportError as problem:
-        raise InputError(f"{file}: a spreadsheet needs {problem.name}: save the table as CSV") from problem
-    except (ValueError, OSError, pd.errors.ParserError):
-        return None
+        raise InputError(f"{file}: is a spreadsheet, and the Python package {PACKAGES[file.suffix.lower()]}, which reads it, is not installed; "
+                         f"apt-get install python3-{PACKAGES[file.suffix.lower()]}, or save the table as CSV") from problem
+    except (ValueError, OSError, KeyError, zipfile.BadZipFile, pd.errors.ParserError):
+        return None  # step 3 says of it what is wrong
     columns = {_field(c): c for c in frame.columns if _field(c)}
-    if "channel" not in columns or not {"x_m", "direction", "dx"} & set(columns):
+    if "channel" not in columns or not {"x_m", "direction", "dx", "node"} & set(columns):
         return None
-    rows = {}
+    found = Sensors(file, {})
+    length_m = {f: LENGTHS_M[place[2] or "m"] for f, c in columns.items() if (place := PLACE.fullmatch(str(c).strip().lower()))}
     for number, row in enumerate(frame.fillna("").to_dict("records"), 2):
-        name = str(row[columns["channel"]]).strip()
-        if name:
-            rows[name] = _sensor({f: str(row[c]).strip() for f, c in columns.items()}, f"{file}: line {number}")
-    return Sensors(file, rows)
+        cells = {f: str(row[c]).strip() for f, c in columns.items()}
+        rows = found.of_setup.setdefault(cells["setup"], {}) if cells.get("setup") else found.rows
+        if cells["channel"]:
+            rows[cells["channel"]] = _sensor(cells, length_m, f"{file}: line {number}")
+    return found
 
 
 def _field(heading) -> str | None:
     plain = str(heading).strip().lower()
-    return next((field for field, names in NAMES.items() if plain in names), None)
+    if found := PLACE.fullmatch(plain):
+        return f"{found[1]}_m"
+    return next((name for name, names in NAMES.items() if plain in names), None)
 
 
-def _sensor(row: dict, where: str) -> dict:
+def _sensor(row: dict, length_m: dict, where: str) -> dict:
+    """Cells of a row by field. `length_m`: metres of a unit in the columns of places"""
     found = {f: row[f].replace(",", ".") if f[1:] == "_m" or f in ("dx", "dy", "dz", "gain") else row[f] for f in FIELDS if row.get(f)}
-    for field in ("x_m", "y_m", "z_m", "dx", "dy", "dz", "gain"):
-        if field in found:
+    for number in ("x_m", "y_m", "z_m", "dx", "dy", "dz", "gain"):
+        if number in found:
             try:
-                float(found[field])
+                value = float(found[number])
+                found[number] = found[number] if length_m.get(number, 1.0) == 1.0 else f"{value * length_m[number]:.12g}"
             except ValueError:
-                raise InputError(f"{where}: {field} is '{found[field]}', expected a number: correct the cell, or leave it empty where it is not known") from None
+                raise InputError(f"{where}: {number} is '{found[number]}', expected a number: correct the cell, or leave it empty where it is not known") from None
     if row.get("direction"):
-        found |= _along(row["direction"], where)
+        cosines = along(row["direction"].lower())
+        if cosines is None:
+            raise InputError(f"{where}: direction is '{row['direction']}', expected x, y, z, -x, -y, -z, vertical, up or down; other directions as columns dx, dy, dz")
+        found |= cosines
     return found
-
-
-def _along(direction: str, where: str) -> dict:
-    text = direction.strip().lower()
-    sign = -1 if text.startswith("-") else 1
-    axis = DIRECTIONS.get(text.lstrip("+-"))
-    if axis is None:
-        raise InputError(f"{where}: direction is '{direction}', expected x, y, z, -x, -y, -z, vertical, up or down; other directions as columns dx, dy, dz")
-    return dict(zip(("dx", "dy", "dz"), (str(sign * a) for a in axis)))
 
 
 def of_universal_file(file: Path, channels: tuple) -> Sensors | None:

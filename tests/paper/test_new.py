@@ -4,6 +4,7 @@ whole study out of a logger's text file, where the executables are built.
 Oracle: files as they are written here; closed forms of the settings (two periods of the lowest mode in a block, the highest mode below 0.4 of the rate).
 """
 import contextlib
+import csv
 import io
 import os
 import subprocess
@@ -11,6 +12,8 @@ import sys
 import tempfile
 import tomllib
 import unittest
+import unittest.mock
+import zipfile
 from pathlib import Path
 
 import numpy as np
@@ -18,7 +21,7 @@ import numpy as np
 ROOT = Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(ROOT / "paper"))
 
-from twindeck_new import campaign, cli, inspection, model, sensors, settings, study  # noqa: E402
+from twindeck_new import campaign, cli, inspection, model, places, sensors, settings, study  # noqa: E402
 from twindeck_new.errors import InputError  # noqa: E402
 
 BIN = Path(os.environ.get("TWINDECK_BIN", ROOT / "build/bin"))
@@ -76,10 +79,19 @@ class Pieces(unittest.TestCase):
         found = sensors.table_of_sensors(self.write("s.csv", "Sensor;x;y;z;direction\nA;0;0;3,5;x\nB;1;;;-z\n"))
         self.assertEqual(found.rows["A"], {"x_m": "0", "y_m": "0", "z_m": "3.5", "dx": "1", "dy": "0", "dz": "0"})
         self.assertEqual(found.rows["B"], {"x_m": "1", "dx": "0", "dy": "0", "dz": "-1"})
+        found = sensors.table_of_sensors(self.write("mm.csv", "Sensor;x [mm];y_cm;z (m)\nA;3500;25;-1,5\n"))
+        self.assertEqual(found.rows["A"], {"x_m": "3.5", "y_m": "0.25", "z_m": "-1.5"})
         self.assertIsNone(sensors.table_of_sensors(self.write("r.csv", "time;A;B\n0;1;2\n0.1;2;3\n")), "a record is no table of sensors")
         for text, words in (("Sensor,x,direction\nA,0,sideways\n", "line 2: direction is 'sideways', expected x, y, z"), ("Sensor,x,y,z\nA,about 3,0,0\n", "line 2: x_m is 'about 3'")):
             with self.assertRaisesRegex(InputError, words):
                 sensors.table_of_sensors(self.write("bad.csv", text))
+
+    def test_a_spreadsheet_that_cannot_be_read(self):
+        """Without the package its name is told; a file that is no workbook is left to step 3, which says so."""
+        with unittest.mock.patch("pandas.read_excel", side_effect=ImportError("Missing optional dependency")), self.assertRaisesRegex(InputError, "apt-get install python3-openpyxl"):
+            sensors.table_of_sensors(self.write("s.xlsx", "x"))
+        with unittest.mock.patch("pandas.read_excel", side_effect=zipfile.BadZipFile("no zip")):
+            self.assertIsNone(sensors.table_of_sensors(self.write("s.xlsx", "x")))
 
     def test_nodes_of_a_universal_file(self):
         found = sensors.of_universal_file(self.write("r.unv", UNIVERSAL), ("P1",))
@@ -137,6 +149,73 @@ class Pieces(unittest.TestCase):
         self.assertEqual([line for line in written.missing if "`reference`" in line], [])
         self.assertEqual(len([line for line in written.missing if "one and the same `condition`" in line]), 1)
 
+    def record(self, name, *columns, units="g", **told):
+        (self.folder / name).parent.mkdir(exist_ok=True)
+        return inspection.Record(self.write(name, ""), 100.0, columns, (units,) * len(columns), 1000, **told)
+
+    def written(self, records, tables=(), nodes=None):
+        """(what was written, channels.csv by channel, the records of campaign.toml, conditions.toml)"""
+        folder = Path(self.enterContext(tempfile.TemporaryDirectory())) / "out"
+        made = campaign.write_campaign(records, list(tables), folder, nodes)
+        with (folder / "channels.csv").open(encoding="utf-8", newline="") as table:
+            channels = {row["channel"]: row for row in csv.DictReader(table)}
+        return made, channels, tomllib.loads((folder / "campaign.toml").read_text())["record"], tomllib.loads((folder / "conditions.toml").read_text())
+
+    def test_a_channel_named_after_a_node_needs_no_line(self):
+        """A named point, a node by its number, a direction behind the name; a lone hyphen may be a minus, and a logger's own number is no node."""
+        for name, told in (("A3_z", ("A3", "z")), ("12z", ("12", "z")), ("P1+x", ("P1", "x")), ("Deck vertical", ("Deck", "vertical")), ("A3-z", ("A3-z", "")), ("max", ("max", "")), ("A3", ("A3", ""))):
+            self.assertEqual(places.split_name(name), told)
+        nodes = places.Nodes({"7": (1.0, 2.0, 3.0), "3": (4.0, 0.0, 0.0)}, {"a3": "7"})
+        made, channels, _, _ = self.written([self.record("r.csv", "A3_z", "N3 y", "Kanal 3", "B_x")], nodes=nodes)
+        self.assertEqual([channels["A3_z"][f] for f in ("point", *campaign.PLACE)], ["A3", "1", "2", "3", "0", "0", "1"])
+        self.assertEqual([channels["N3_y"][f] for f in ("point", *campaign.PLACE)], ["3", "4", "0", "0", "0", "1", "0"])
+        self.assertEqual([(r["x_m"], r["dx"]) for r in (channels["Kanal_3"], channels["B_x"])], [("", ""), ("", "1")])
+        self.assertEqual(made.missing, ["channels.csv lines 4, 5: Kanal_3, B_x: position x_m, y_m, z_m", "channels.csv line 4: Kanal_3: direction dx, dy, dz"])
+        self.assertEqual(made.read, ["places out of the model: A3_z at A3, N3_y at 3"])
+
+    def test_units_in_any_spelling(self):
+        for unit, name in (("[m/s²]", "m/s^2"), ("CM/S^2", "cm/s^2"), ("µg", "ug"), ("mm / s", "mm/s")):
+            self.assertEqual(campaign.scale_of(unit)[0], name)
+        self.assertIsNone(campaign.scale_of("?"))
+
+    def test_one_line_a_sensor(self):
+        """A table by nodes; a line for the two channels of one point; a place of one's own goes before the node of the name; a sensor far from all nodes."""
+        table = sensors.table_of_sensors(self.write("s.csv", "Kanal;Knoten;Richtung;x;y;z\nA3;7;;;;\nK1;7;-z;;;\nA7_z;;;4,1;0;0\nK2;;x;4;0;9\n"))
+        nodes = places.Nodes({"7": (1.0, 2.0, 3.0), "3": (4.0, 0.0, 0.0)}, {"a7": "7"})
+        record = self.record("r.csv", "A3_x", "A3_z", "K1", "A7_z", "K2")
+        made, channels, _, _ = self.written([record], [table], nodes)
+        self.assertEqual([[channels[c][f] for f in campaign.PLACE] for c in ("A3_x", "A3_z", "K1", "A7_z")],
+                         [["1", "2", "3", "1", "0", "0"], ["1", "2", "3", "0", "0", "1"], ["1", "2", "3", "0", "0", "-1"], ["4.1", "0", "0", "0", "0", "1"]])
+        self.assertEqual(len(made.missing), 1)
+        self.assertIn("channels.csv line 6: K2: lies 7.00 m from the nearest node (7), expected at most 0.5 m", made.missing[0])
+        self.assertEqual(campaign.all_known([table], [record]), [])
+
+    def test_the_logger_calls_other_sensors_the_same_in_the_next_setup(self):
+        """K1 stays at its place, K2 moves from x = 1 m to 3 m: three sensors, of which one is the reference."""
+        table = sensors.table_of_sensors(self.write("s.csv", "channel,setup,x,y,z,direction\nK1,1,0,0,0,z\nK2,1,1,0,0,z\nK1,2,0,0,0,z\nK2,2,3,0,0,z\n"))
+        made, channels, entries, _ = self.written([self.record("S1.csv", "K1", "K2"), self.record("setup_02.csv", "K1", "K2")], [table])
+        self.assertEqual([(c, r["x_m"], r["reference"], r["role"]) for c, r in channels.items()], [("K1", "0", "1", "response"), ("K2", "1", "0", "response"), ("K2_2", "3", "0", "response")])
+        self.assertEqual([(e["setup"], e["channels"], e.get("columns")) for e in entries], [("1", ["K1", "K2"], None), ("2", ["K1", "K2_2"], ["K1", "K2"])])
+        self.assertEqual((made.missing, made.read), ([], ["references, in all setups: K1"]))
+        with self.assertRaisesRegex(InputError, "its name holds no setup of the sensor table's column setup"):
+            self.written([self.record("monday.csv", "K1", "K2")], [table])
+
+    def test_conditions_by_the_names_of_files_and_folders(self):
+        names = ("S1_warm.csv", "S2_warm.csv", "S1_cold.csv", "S2_cold.csv")
+        records = [self.record(name, "ref", f"p{name[1]}", temperature_C=21.26 if "warm" in name else None) for name in names]
+        made, _, entries, conditions = self.written(records)
+        self.assertEqual([e["condition"] for e in entries], ["warm", "cold", "warm", "cold"])
+        self.assertEqual(conditions, {"warm": {"temperature_C": 21.26}, "cold": {}})
+        self.assertNotIn("one and the same", "".join(made.missing))
+        records = [self.record(f"{folder}/S{setup}.csv", "ref", f"p{setup}") for folder in ("july", "january") for setup in (1, 2)]
+        _, _, entries, _ = self.written(records)
+        self.assertEqual([(e["file"], e["condition"]) for e in entries], [(f"records/{f}_S{s}.csv", f) for s in (1, 2) for f in ("july", "january")])
+
+    def test_a_column_of_temperatures_is_no_channel(self):
+        lines = [*INSPECTED[:5], "T deck                   °C                  30000         0         0        0        18.25          0.1"]
+        record = inspection.read(Path("x.csv"), lines)
+        self.assertEqual((record.columns, record.temperature_C), (("Acc A",), 18.25))
+
     def test_names_of_columns_become_names_of_channels(self):
         self.assertEqual([campaign.channel_name(c, i) for i, c in enumerate(("Acc A [g]", "column 2", "ok_3", "µ"), 1)], ["Acc_A_g", "c2", "ok_3", "c4"])
 
@@ -183,6 +262,13 @@ class Study(unittest.TestCase):
         check = subprocess.run([str(BIN / "s3_identification"), "--study", "workflows/mill_bridge", "--results", "results/mill_bridge", "--out", "results/mill_bridge/s3_identification", "--check"],
                                cwd=self.folder, capture_output=True, text=True, check=False)
         self.assertEqual(check.returncode, 0, check.stderr)
+        table = self.folder / "data/mill_bridge/campaign/channels.csv"
+        table.write_text(table.read_text(encoding="utf-8").replace("Acc_A,Acc_A,0,0,3,", "Acc_A,Acc_A,0,0,30,"), encoding="utf-8")
+        first = subprocess.run([str(BIN / "s1_model"), "--study", "workflows/mill_bridge", "--results", "results/mill_bridge", "--out", "results/mill_bridge/s1_model", "--check"],
+                               cwd=self.folder, capture_output=True, text=True, check=False)
+        self.assertEqual(first.returncode, 0, first.stderr)
+        self.assertRegex(first.stderr, r"warning: data/mill_bridge/campaign/channels.csv: Acc_A: lies 24.00 m from the nearest node \(9\), expected at most 0.50 m")
+        self.assertIn("Acc_D: is no direction", first.stderr)
         again = self.new("mill_bridge", "--from", "logger.csv")
         self.assertEqual(again.returncode, 2)
         self.assertIn("workflows/mill_bridge is there already", again.stderr)
@@ -191,9 +277,14 @@ class Study(unittest.TestCase):
         """A bar of steel in Nastran's form does not say its units; three lines beside it do. They are kept, modulus and density follow as a start."""
         (self.folder / "bar.bdf").write_text("SOL 103\nCEND\nSPC = 1\nBEGIN BULK\nGRID,1,,0.,0.,0.\nGRID,2,,1.,0.,0.\nGRID,3,,2.,0.,0.\nCBAR,1,1,1,2,0.,0.,1.\nCBAR,2,1,2,3,0.,0.,1.\n"
                                              "PBAR,1,7,0.01,1.-5,1.-5,2.-5\nMAT1,7,210.E9,,0.3,7850.\nSPC1,1,123456,1\nENDDATA\n", encoding="utf-8")
-        without = self.new("bar", "--from", "logger.csv", "sensors.csv", "bar.bdf")
-        self.assertEqual(without.returncode, 2)
-        self.assertIn("write [units]", without.stderr)
+        without = self.new("steel", "--from", "logger.csv", "sensors.csv", "bar.bdf")
+        self.assertEqual(without.returncode, 0, without.stderr)
+        self.assertIn('read     bar.toml: [units] length = "m" force = "N"', without.stdout)
+        self.assertEqual(tomllib.loads((self.folder / "data/steel/bar.toml").read_text(encoding="utf-8"))["units"], {"length": "m", "force": "N"})
+        (self.folder / "odd.bdf").write_text((self.folder / "bar.bdf").read_text(encoding="utf-8").replace("7850.", "3.1"), encoding="utf-8")
+        odd = self.new("odd", "--from", "logger.csv", "sensors.csv", "odd.bdf")
+        self.assertEqual(odd.returncode, 2, odd.stdout)
+        self.assertIn("write [units]", odd.stderr)
         (self.folder / "bar.toml").write_text('[units]\nlength = "m"\nforce = "N"\n', encoding="utf-8")
         run = self.new("bar", "--from", "logger.csv", "sensors.csv", "bar.bdf")
         self.assertEqual(run.returncode, 0, run.stderr)
