@@ -13,7 +13,7 @@ namespace twindeck::identification {
 
 namespace {
 
-constexpr double kPeriodsOfABlock = 2.0;  ///< [-] least periods in a block; a shorter block biases frequency and damping
+constexpr double kShortBlock = 0.9;  ///< [-] of the least periods, below which a block is named; a peak is known to a line only
 /// [-] factor between a damping ratio and the median of all modes above which a mode is named, and standard deviations by which
 /// it must be exceeded
 constexpr double kFarDamping = 4.0, kSure = 3.0;
@@ -25,13 +25,12 @@ void short_blocks(const ConditionResult& result, std::vector<std::string>& doubt
   for (const SetupResult& setup : result.setups) {
     if (setup.found.modes.empty()) continue;
     const double lowest = setup.found.modes.front().frequency_Hz, rate = setup.conditioned.rate_Hz;
-    const double needed = kPeriodsOfABlock * rate / lowest;
-    if (static_cast<double>(setup.limits.block_rows) >= needed) continue;
+    const long needed = block_rows_of(kLeastPeriods, rate, lowest);
+    if (static_cast<double>(setup.limits.block_rows) >= kShortBlock * static_cast<double>(needed)) continue;
     doubts.push_back(fmt::format(
         "setup {}: {} block rows ({:.3g} s) are shorter than two periods of the mode at {:.4g} Hz, whose damping may "
         "be off; raise block_rows to {} or decimate more",
-        setup.conditioned.setup, setup.limits.block_rows, static_cast<double>(setup.limits.block_rows) / rate, lowest,
-        std::lround(std::ceil(needed))));
+        setup.conditioned.setup, setup.limits.block_rows, static_cast<double>(setup.limits.block_rows) / rate, lowest, needed));
   }
 }
 

@@ -116,19 +116,28 @@ Sampling choose(const Spectrum& spectrum, const Kind& kind, const std::vector<Sa
     chosen.decimation = std::clamp(most, 1L, std::max(1L, static_cast<long>(shortest) / kSamplesLeft));
   }
   const double rate = rate_Hz / static_cast<double>(chosen.decimation);
+  std::string fewer;
   if (config.block_rows == 0) {
     const long most = std::clamp(kMostRowsOfAll / static_cast<long>(records.front().cols()), kFewestRows, kMostRows);
-    chosen.block_rows = std::clamp(static_cast<long>(std::ceil(kind.periods * rate / chosen.lowest_Hz)), kFewestRows, most);
+    const long wanted = block_rows_of(kind.periods, rate, chosen.lowest_Hz);
+    chosen.block_rows = std::clamp(wanted, kFewestRows, most);
+    if (wanted > most)
+      fewer = fmt::format("; {:g} periods of the lowest peak need {} block rows, more than {} channels carry in short time",
+                          kind.periods, wanted, records.front().cols());
   }
   const double left_out = peaks.back();
   chosen.note = fmt::format(
-      "{:.4g} Hz (decimation {}) and {} block rows ({:.3g} s) are chosen for motion from {:.4g} to {:.4g} Hz{}", rate,
+      "{:.4g} Hz (decimation {}) and {} block rows ({:.3g} s) are chosen for motion from {:.4g} to {:.4g} Hz{}{}", rate,
       chosen.decimation, chosen.block_rows, static_cast<double>(chosen.block_rows) / rate, chosen.lowest_Hz, chosen.highest_Hz,
-      left_out > top ? fmt::format("; peaks up to {:.4g} Hz need a run of their own: band.lowest", left_out) : "");
+      fewer, left_out > top ? fmt::format("; peaks up to {:.4g} Hz need a run of their own: band.lowest", left_out) : "");
   return chosen;
 }
 
 }  // namespace
+
+long block_rows_of(double periods, double rate_Hz, double frequency_Hz) {
+  return static_cast<long>(std::ceil(periods * rate_Hz / frequency_Hz));
+}
 
 std::vector<double> spectral_peaks(const Eigen::VectorXd& frequency_Hz, const Eigen::VectorXd& density, double prominence,
                                    double lowest_Hz, double highest_Hz) {

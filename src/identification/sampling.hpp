@@ -10,6 +10,13 @@ namespace twindeck::identification {
 /// because the last lines contain aliases of frequencies above.
 inline constexpr double kFilteredBand = 0.8, kUnfilteredBand = 0.97;
 
+/// [-] Least periods of the lowest mode in a block; a shorter block biases frequency and damping.
+inline constexpr double kLeastPeriods = 2.0;
+
+/// Block rows that span so many periods of a frequency.
+/// @param rate_Hz  of the decimated record
+[[nodiscard]] long block_rows_of(double periods, double rate_Hz, double frequency_Hz);
+
 /// Decimation and block rows, chosen from the spectrum of a record.
 struct Sampling {
   long decimation = 1, block_rows = 30;
@@ -29,7 +36,8 @@ inline constexpr double kClearPeak = 10.0;
 
 /// Chooses what the configuration leaves open (decimation or block_rows 0): from the lowest to the highest peak of the spectrum
 /// within the configured band, but no further than one model can follow. Decimation keeps the rate above three times the
-/// highest peak; block rows span three periods of the lowest peak. Without a peak: the record as it is.
+/// highest peak; block rows span three periods of the lowest peak, or fewer where so many channels carry no more, which the
+/// note says. Without a peak: the record as it is.
 /// @param records  of one rate, detrended, not decimated @param config  of ambient records or, as stay_settings, of stays
 [[nodiscard]] Sampling choose_sampling(const std::vector<Samples>& records, double rate_Hz,
                                        const IdentificationSettings& config);

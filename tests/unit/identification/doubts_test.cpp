@@ -41,6 +41,9 @@ TEST(DoubtsOf, ABlockIsShorterThanTwoPeriods) {
   EXPECT_NE(doubts[0].find("block_rows to 40"), std::string::npos) << doubts[0];
 }
 
+// Two periods of 0.63 Hz are 32 rows of 10 Hz. A peak of the spectrum, by which step 3 chooses, is known to a line only.
+TEST(DoubtsOf, ABlockThatMissesTwoPeriodsByALineIsLongEnough) { EXPECT_TRUE(doubts_of(with_modes({0.63, 1.2})).empty()); }
+
 TEST(DoubtsOf, ADampingRatioIsFarFromTheOthers) {
   ConditionResult result = with_modes({0.8, 1.2, 1.9, 2.6});
   result.modes[2].damping_ratio = 0.06;

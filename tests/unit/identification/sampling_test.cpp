@@ -45,6 +45,17 @@ TEST(ChooseSampling, WhatIsConfiguredStays) {
   EXPECT_EQ(chosen.block_rows, 33);
 }
 
+// Three periods of 2 Hz at 200 Hz are 300 rows; 1600 rows of all channels are 100 of sixteen.
+TEST(ChooseSampling, ManyChannelsCarryFewerRowsAndTheNoteSaysSo) {
+  const std::vector<Samples> records = {oscillator(2.0, 200.0, 60000, 7).replicate(1, 16)};
+  IdentificationSettings config = open_settings();
+  config.decimation = 1;
+  const Sampling chosen = choose_sampling(records, 200.0, config);
+  EXPECT_EQ(chosen.block_rows, 100);
+  EXPECT_NE(chosen.note.find("3 periods of the lowest peak need 3"), std::string::npos) << chosen.note;
+  EXPECT_NE(chosen.note.find("more than 16 channels carry"), std::string::npos) << chosen.note;
+}
+
 // White noise has no peak: its lines scatter about their median by less than a factor of five in nineteen averages.
 TEST(ChooseSampling, NoiseIsTakenAsItIs) {
   signal::test::Noise noise(3);
