@@ -218,7 +218,7 @@ std::string why_it_is(const Diagnosis& result, const IdsInWords& ids) {
     std::vector<std::string> others;
     for (std::size_t i = 1; i < result.effects.size(); ++i)
       others.push_back(ids.in_text(result.effects[i].cause.candidate->id()));
-    return others.empty() ? nearest : fmt::format("{} Beside it: {}.", nearest, fmt::join(others, "; "));
+    return others.empty() ? nearest : fmt::format("{} Other causes beside this one: {}.", nearest, fmt::join(others, "; "));
   }
   if (result.effects.size() == 1) return with_intervals(result.effects.front());
   std::vector<std::string> causes;
@@ -252,7 +252,7 @@ std::string rivals_words(const Effect& effect, const IdsInWords& ids) {
                                 sizes.empty() ? "" : fmt::format(" ({})", fmt::join(sizes, "; "))));
   }
   const std::string more = effect.rivals.size() > kRivals ? fmt::format("; and {} more", effect.rivals.size() - kRivals) : "";
-  return fmt::format("These data cannot tell it from: {}{}.", fmt::join(named, "; "), more);
+  return fmt::format("These data cannot tell this cause from: {}{}.", fmt::join(named, "; "), more);
 }
 
 /// Sentence on several causes: the probability of each, and the ones that the data cannot distinguish.
@@ -281,16 +281,17 @@ std::string how_sure_it_is(const Diagnosis& result, const IdsInWords& ids) {
         odds_words(result.log_odds));
   std::string text;
   if (result.verdict == Verdict::unknown)
-    text = fmt::format("Not sure: {}. ",
-                       result.after_extension && result.residual.dof > 0
-                           ? fmt::format("with it in the model misfit is left (chi-squared {} on {} degrees of freedom)",
-                                         number_in_words(result.residual.statistic), result.residual.dof)
-                           : result.message);
+    text =
+        fmt::format("Not sure: {}. ",
+                    result.after_extension && result.residual.dof > 0
+                        ? fmt::format("with the causes in the model misfit is left (chi-squared {} on {} degrees of freedom)",
+                                      number_in_words(result.residual.statistic), result.residual.dof)
+                        : result.message);
   const Effect& first = result.effects.front();
   if (result.verdict != Verdict::unknown && result.effects.size() > 1) return how_sure_of_each(result, ids);
   text += fmt::format("Compared with all other causes of the catalogue and with no cause, the {}cause has probability {}. ",
                       result.effects.size() > 1 ? "first " : "", probability_words(first.probability));
-  if (result.verdict == Verdict::unknown && first.rivals.empty()) return text + "It is not the whole of what is wrong.";
+  if (result.verdict == Verdict::unknown && first.rivals.empty()) return text + "This cause is not the whole of what is wrong.";
   return text + rivals_words(first, ids);
 }
 
@@ -359,7 +360,7 @@ std::string left_over_words(const Diagnosis& result, const PlaceWords& places) {
   return fmt::format(
       "What is left unexplained is largest about {}. Measure the shapes at more points there, and test in a second condition "
       "(amplitude, temperature): "
-      "that shows what it depends on.",
+      "that shows what the misfit depends on.",
       places.at(result.localisation.front().location).words);
 }
 
@@ -440,8 +441,8 @@ std::vector<std::string> measure_next(const Diagnosis& result, const PlaceWords&
                                  effect.split_by));
     for (const EffectParameter& p : effect.parameters) {
       if (p.at_low_bound == p.at_high_bound) continue;
-      next.push_back(fmt::format("{} of {} has only {} limit: a record in which it is reached would give its size.", p.name,
-                                 ids.in_text(effect.cause.candidate->id()), p.at_high_bound ? "a lower" : "an upper"));
+      next.push_back(fmt::format("{} of {} has only {} limit: a record in which this limit is reached would give the size.",
+                                 p.name, ids.in_text(effect.cause.candidate->id()), p.at_high_bound ? "a lower" : "an upper"));
     }
   }
   if (result.verdict == Verdict::unknown && !result.localisation.empty()) next.push_back(left_over_words(result, places));

@@ -129,7 +129,8 @@ TEST(Sentences, MirrorImagesAreRivals) {
   EXPECT_NEAR(mirror->parameters[0].value / effect.parameters[0].value, 1.0, 0.02);
   EXPECT_LT(mirror->parameters[0].low, mirror->parameters[0].value);
   EXPECT_GT(mirror->parameters[0].high, mirror->parameters[0].value);
-  EXPECT_NE(spoken.sentences.how_sure.find("These data cannot tell it from: "), std::string::npos) << spoken.sentences.how_sure;
+  EXPECT_NE(spoken.sentences.how_sure.find("These data cannot tell this cause from: "), std::string::npos)
+      << spoken.sentences.how_sure;
 }
 
 TEST(Sentences, AGainWhoseIntervalHoldsZeroIsNoneShown) {

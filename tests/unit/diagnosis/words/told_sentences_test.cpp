@@ -96,8 +96,9 @@ TEST(ToldSentences, WhyNamesEveryCauseOrWhatComesNearest) {
   result.verdict = Verdict::named;
   EXPECT_EQ(told.said(result).why, "Cause 1: It is soft. Cause 2: It is heavy.");
   result.verdict = Verdict::unknown;
-  EXPECT_EQ(told.said(result).why, "Not known. What comes nearest: It is soft. Beside it: heavier than modelled at " +
-                                       told.places.at("group:g2").words + ".");
+  EXPECT_EQ(told.said(result).why,
+            "Not known. What comes nearest: It is soft. Other causes beside this one: heavier than modelled at " +
+                told.places.at("group:g2").words + ".");
   result.effects.pop_back();
   EXPECT_EQ(told.said(result).why, "Not known. What comes nearest: It is soft.");
   result.effects.clear();
@@ -132,7 +133,7 @@ TEST(ToldSentences, HowSureIsTheProbabilityWithTheRivals) {
   const std::string in_words = "heavier than modelled at " + told.places.at("group:g2").words;
   result.effects[0].probability = 0.5;
   result.effects[0].rivals = {heavy, other, heavy, other, other};
-  const std::string rivals = "These data cannot tell it from: " + in_words +
+  const std::string rivals = "These data cannot tell this cause from: " + in_words +
                              ", probability 0.25 (m 1 kg to 3 kg); something else that changed, probability 0.12; " + in_words +
                              ", probability 0.25 (m 1 kg to 3 kg); and 2 more.";
   EXPECT_EQ(told.said(result).how_sure, all + "cause has probability 0.50. " + rivals);
@@ -165,12 +166,12 @@ TEST(ToldSentences, HowSureOfWhatIsNotNamedSaysWhatIsLacking) {
   result.message = "two are alike";
   EXPECT_EQ(told.said(result).how_sure,
             "Not sure: two are alike. Compared with all other causes of the catalogue and with no cause, the first cause has "
-            "probability 0.50. It is not the whole of what is wrong.");
+            "probability 0.50. This cause is not the whole of what is wrong.");
   result.after_extension = true;
   result.residual.statistic = 123.4;
   result.residual.dof = 50;
   EXPECT_TRUE(told.said(result).how_sure.starts_with(
-      "Not sure: with it in the model misfit is left (chi-squared 123 on 50 degrees of freedom). Compared"));
+      "Not sure: with the causes in the model misfit is left (chi-squared 123 on 50 degrees of freedom). Compared"));
 }
 
 TEST(ToldSentences, TheGainIsOfHeldOutRowsOrOfModesLeftOut) {
@@ -231,8 +232,8 @@ TEST(ToldSentences, WhatToMeasureNextIsTheMostWanted) {
                               {{"b", "no row of type shape"}, {"a", "no stays in this model"}, {"c", "no row of type shape"}});
   EXPECT_EQ(next, (std::vector<std::string>{
                       "To tell " + soft + " from " + heavy + ": the frequency of mode 9.",
-                      "Fc of " + soft + " has only a lower limit: a record in which it is reached would give its size.",
-                      "k of " + soft + " has only an upper limit: a record in which it is reached would give its size.",
+                      "Fc of " + soft + " has only a lower limit: a record in which this limit is reached would give the size.",
+                      "k of " + soft + " has only an upper limit: a record in which this limit is reached would give the size.",
                       "Cannot be asked with these rows: b, c (no row of type shape)."}));
   EXPECT_EQ(told.said(result, next).next, "To tell the cause from its nearest rival, measure the frequency of mode 9.");
   result.effects.insert(result.effects.begin(), Told::effect(told.second, 0.5));
@@ -246,7 +247,7 @@ TEST(ToldSentences, WhatToMeasureNextIsTheMostWanted) {
   const std::string left =
       "What is left unexplained is largest about " + told.places.at("group:g2").words +
       ". Measure the shapes at more points there, and test in a second condition (amplitude, temperature): "
-      "that shows what it depends on.";
+      "that shows what the misfit depends on.";
   EXPECT_EQ(told.said(result).next, left);
   EXPECT_EQ(diagnosis::measure_next(result, told.places, told.ids, {}), std::vector<std::string>{left});
   result.verdict = Verdict::none;
