@@ -136,7 +136,7 @@ class OneStudy(unittest.TestCase):
         self.assertRegex(self.account(told), r"How big: Fc not known \(90 %\)")
 
     def test_several_causes_are_counted(self):
-        for count, words in ((1, "One cause explains it"), (2, "2 causes explain it together")):
+        for count, words in ((1, "One cause explains the deviations"), (2, "2 causes explain the deviations together")):
             self.assertEqual(diagnosis.verdict_in_words({"verdict": "named", "effects": [{}] * count})[1], words)
         self.assertEqual(diagnosis.verdict_in_words({"verdict": "unknown", "effects": [{}] * 2})[1], diagnosis.VERDICTS["unknown"][1])
         self.assertIn("No cause is named", diagnosis.verdict_in_words({"verdict": "unknown", "effects": []})[2], "nothing is named below")
@@ -196,7 +196,10 @@ class Headline(unittest.TestCase):
 
     def test_a_long_cause_is_told_by_its_title(self):
         effect = made_up_answer.diagnosis()["effects"][0] | {"sentence": "A sentence " + "that goes on and on " * 5}
-        self.assertTrue(self.sentence(effects=[effect]).startswith("Damper held by friction below a threshold force: the dampers C1 and C2;"))
+        self.assertTrue(self.sentence(effects=[effect]).startswith("Damper held by friction below a threshold force, 430 N: the dampers C1 and C2;"), "with its size")
+        far = effect | {"cause": "brg", "place": {"words": "the pier P2 at x = 40 m, y = 0 m, z = 12 m (node 7, group piers)"},
+                        "sentence": "The pier P2 at x = 40 m, y = 0 m, z = 12 m (node 7, group piers) holds with 0.42 times the modelled translational stiffness."}
+        self.assertEqual(self.sentence(effects=[far]), "The pier P2 at x = 40 m holds with 0.42 times the modelled translational stiffness; likely; error 25 % smaller on unfitted data.", "its place is shortened first")
         gain = made_up_answer.diagnosis()["gain"]
         self.assertIn("no gain shown", self.sentence(gain=gain | {"interval_pct": [-8.0, 66.0]}))
         self.assertIn("gain not measured", self.sentence(gain=gain | {"rows": 0}))
@@ -205,6 +208,11 @@ class Headline(unittest.TestCase):
         friction = made_up_answer.diagnosis()["effects"][0]
         text = self.sentence(effects=[made_up_answer.bar_stays("NE5", "SE5"), friction | {"sentence": "A sentence " + "that goes on " * 8}])
         self.assertEqual(text, "2 stays modelled as bars vibrate; damper held by friction below a threshold force: the dampers C1 and C2; almost certain; error 25 % smaller.")
+        softer = friction | {"cause": "brg", "sentence": "A sentence " + "that goes on " * 8, "place": {"words": "the pier P2 at x = 40 m, y = 0 m"},
+                             "parameters": [made_up_answer.parameter("factor", "-", 0.4213, 0.3, 0.5)]}
+        mass = softer | {"cause": "mass", "place": {"words": "midspan at x = 20 m"}, "parameters": [made_up_answer.parameter("mass_kg", "kg", 20800.0, 18000.0, 23000.0)]}
+        text = self.sentence(effects=[softer, mass], raw=self.raw((0.96, 0.99)))
+        self.assertEqual(text, "Support softer than modelled, 0.42 times: the pier P2; mass that the model lacks, 21,000 kg; likely; errors fall from 4 to 1 %.")
         alone = self.sentence(effects=[made_up_answer.bar_stays("NE5")])
         self.assertTrue(alone.startswith("1 stay modelled as a bar vibrates: the stay NE5; almost certain"), alone)
 

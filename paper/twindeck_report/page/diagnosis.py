@@ -12,8 +12,8 @@ from .places import places
 
 VERDICTS = {
     "none": ("good", "Nothing is missing", "The model fitted within its bounds explains the measurement: updating is enough."),
-    "named": ("good", "One cause explains it", "What the model fitted within its bounds leaves unexplained is explained by what is named here."),
-    "ambiguous": ("warn", "Several causes explain it equally well", "The rows that were measured cannot tell the members of a cluster apart."),
+    "named": ("good", "One cause explains the deviations", "What the model fitted within its bounds leaves unexplained is explained by what is named here."),
+    "ambiguous": ("warn", "Several causes explain the deviations equally well", "The measured values cannot tell these causes apart."),
     "unknown": ("bad", "The model lacks something that no cause of the catalogue explains",
                 "What is named below helps, but the residual test still rejects the extended model: do not take it for the cause."),
 }
@@ -28,7 +28,7 @@ def verdict_in_words(told: dict, beyond: int = 0) -> tuple:
     if told["verdict"] == "unknown" and not told["effects"]:
         meaning = "No cause is named: with the best one in it the model still misses what was measured. Below is where a change would explain most."
     if told["verdict"] == "named" and len(told["effects"]) > 1:
-        title = f"{len(told['effects'])} causes explain it together"
+        title = f"{len(told['effects'])} causes explain the deviations together"
     if told["verdict"] == "ambiguous" and told["effects"] and not any(equally_well(e) for e in told["effects"]):
         title = "One cause is likelier than the others, which stay possible"
     return tone, title, meaning

@@ -1,15 +1,16 @@
-"""The first sentence of a report, of at most 25 words: what is wrong, where, how sure that is, how much better the model becomes. Plain odds and
-words; log odds stay in the account for experts."""
+"""The first sentence of a report, of at most 25 words: what is wrong, where and how much, also of a second cause, how sure that is, how much better
+the model becomes. Plain odds and words; log odds stay in the account for experts."""
+import itertools
 import math
 import re
 import tomllib
 from pathlib import Path
 
+from .numbers import physical
 from .places import place_of, stays_of
 from .raw_errors import RawErrors
 
 MOST_WORDS = 25  # of the first sentence: what a reader takes in at a glance
-MOST_OF_THE_CAUSE = 14  # words, so that odds and gain still fit behind them
 ALIKE = 3.0  # ratio of probabilities up to which two causes explain the data equally well: by less no one would bet on either
 LARGEST_ODDS = 1e6  # beyond it odds are told as "over a million to 1": the catalogue is not that complete
 CATALOGUE = Path(__file__).resolve().parents[3] / "workflows/common/hypotheses"
@@ -51,26 +52,36 @@ def words(text: str) -> int:
     return len(text.split())
 
 
-def cause_in_words(effect: dict) -> str:
-    """The cause's own sentence without its asides where it is short, else its title in the catalogue with the place."""
-    told = in_runs(re.sub(r"\s*\([^()]*\)", "", effect.get("sentence") or "").split(";")[0].strip().rstrip("."))
-    return told if told and words(told) <= MOST_OF_THE_CAUSE else _titled(effect)[0]
-
-
-def _titled(effect: dict) -> list:
-    """The cause's title in the catalogue with the place, and shorter."""
-    title = _title(effect)
-    return [t for t in (f"{title}: {where}" for where in _places(place_of(effect)[1])) if words(t) <= MOST_OF_THE_CAUSE] + [title]
-
-
 def causes_in_words(effects: list) -> list:
-    """Ways to tell the causes, the one that says most first."""
-    first = cause_in_words(effects[0])
-    if len(effects) == 1:
-        return [first, *_titled(effects[0])]
-    titles = [_title(e) for e in effects]
-    told = [title if stays_of(e) else ": ".join([title, *_places(place_of(e)[1])[1:2]]) for e, title in zip(effects, titles)]
-    return [_listed(told), _listed(titles), f"{first} and {len(effects) - 1} more cause{'s' if len(effects) > 2 else ''}"]
+    """Ways to tell the causes, each with place and size where there is room, the one that says most first. Of more than two, two are named."""
+    told, more = [_claims(e) for e in effects[:2]], len(effects) - 2
+    rest = [f"and {more} more cause{'s' if more > 1 else ''}"] if more > 0 else []
+    several = sorted(itertools.product(*map(enumerate, told)), key=lambda ways: sum(at for at, _ in ways))
+    return [" ".join([_listed([text for _, text in ways]), *rest]) for ways in several]
+
+
+def _claims(effect: dict) -> list:
+    """The cause's own sentence without its asides, with its place shorter and shorter, then its title in the catalogue with size and place."""
+    told, title, size = in_runs(re.sub(r"\s*\([^()]*\)", "", effect.get("sentence") or "").split(";")[0].strip().rstrip(".")), _title(effect), _size(effect)
+    places = [] if stays_of(effect) and len(stays_of(effect)) > 1 else _places(place_of(effect)[1])
+    within = told[:1].lower() + told[1:] if places and told.lower().startswith(places[0].lower()) else told
+    sentences = [_capitalised(within.replace(places[0], shorter)) for shorter in places if places[0] in within] or [told]
+    titles = [f"{what}: {where}" for what in ([f"{title}, {size}"] if size else []) + [title] for where in places] + ([f"{title}, {size}"] if size else [])
+    return list(dict.fromkeys([t for t in (*sentences, *titles) if t] + [title]))
+
+
+def _size(effect: dict) -> str:
+    """The cause's first unknown with its unit, '0.55 times' of a factor; "" where the data do not bound it or the title tells it."""
+    first = next(iter(effect.get("parameters", [])), None)
+    if first is None or stays_of(effect) or first.get("one_sided") == "open":
+        return ""
+    end = {"lower limit": ("at least ", "low"), "upper limit": ("at most ", "high")}.get(first.get("one_sided"), ("", "value"))
+    number = physical(first[end[1]], first.get("unit", ""), 2)
+    return end[0] + (f"{number} times" if first["name"] == "factor" else number)
+
+
+def _capitalised(text: str) -> str:
+    return text[:1].upper() + text[1:]
 
 
 def _listed(told: list) -> str:
@@ -98,6 +109,9 @@ def _title(effect: dict) -> str:
         return f"{len(stays)} stays modelled as bars vibrate" if len(stays) > 1 else "1 stay modelled as a bar vibrates"
     path = CATALOGUE / f"{effect['cause']}.toml"
     title = tomllib.loads(path.read_text(encoding="utf-8"))["hypothesis"].get("title") if path.is_file() else None
+    factor = next((p["value"] for p in effect.get("parameters", []) if p["name"] == "factor"), None)
+    if title and factor is not None:
+        title = re.sub(r"\b(?:softer or stiffer|stiffer or softer)\b", "softer" if factor < 1.0 else "stiffer", title)
     return title or f"Cause {effect['cause']}"
 
 
@@ -132,7 +146,7 @@ def _gained(gain: dict, raw: RawErrors | None) -> list:
     no = "no gain: " if raw.worse else "" if gain["interval_pct"][0] > 0 else "no gain shown: "
     before, after = (f"{error:.2g}" for error in raw.frequency)
     errors = f"stay at {after} %" if before == after else f"{'rise' if raw.frequency[1] > raw.frequency[0] else 'fall'} from {before} to {after} %"
-    return [f"{no}{which} frequency errors {errors}{_but(raw)}"]
+    return [f"{no}{which} frequency errors {errors}{_but(raw)}"] + ([f"{no}errors {errors}"] if raw.held_out and not _but(raw) else [])
 
 
 def _but(raw: RawErrors) -> str:
