@@ -17,6 +17,8 @@ DECKS = (".inp", ".bdf", ".nas", ".blk", ".cdb", ".s2k", ".$2k")
 OTHERS = (".dat", ".mac", ".ans", ".txt")  # a deck, a record or a table
 CARDS = re.compile(rb"^\s*(BEGIN BULK|GRID[ ,*]|/PREP|NBLO|EBLO|ETBL|ET,)", re.IGNORECASE | re.MULTILINE)  # as step 1 tells a deck
 UNITS = (("m", "N"), ("mm", "N"), ("m", "kN"), ("in", "lbf"))  # length and force of a deck that does not say them
+SPRING_LIMITS, MASS_LIMITS = (0.2, 5.0), (0.8, 1.25)  # [-] of a stiffness of bearings or soil, and of what a structure carries; stated as a start
+MOST_GROUPS = 8  # of springs or of masses that get a parameter each; more are bound to be details of the mesh
 STIFFNESS_RANGE, DENSITY_RANGE = 0.2, 0.1  # [-] either way: what a modulus of elasticity and a density of a usual material may be off; stated as a start
 
 
@@ -56,7 +58,7 @@ def read_model(bin_folder: Path, source: Path, title: str) -> Model:
         if has.get("parameter") or has.get("matrices") or not materials.is_file():
             return Model(source, source.is_dir(), own, [] if "parameter" in has else [f"parameters with bounds in {beside.name}: without them steps 5 and 6 have nothing to update"], nodes, read)
         text = ("" if "title" in has else f'title = "{title}"\n') + own
-        return Model(source, source.is_dir(), *_parameters(pd.read_csv(materials), text), nodes, read)
+        return Model(source, source.is_dir(), *_parameters(out / "model", text), nodes, read)
 
 
 def _step_1(bin_folder: Path, source: Path, out: Path) -> str:
@@ -87,19 +89,31 @@ def _likely_units(bin_folder: Path, deck: Path, own: str) -> str | None:
     return found[0] if len(found) == 1 else None
 
 
-def _parameters(materials, text: str) -> tuple:
-    """`text` of the model's own file with a start of parameters, one a modulus and a density."""
+def _parameters(folder: Path, text: str) -> tuple:
+    """`text` of the model's own file with a start of parameters, one a modulus, a density, a group of springs and a group of masses, and what is left to
+    state. `folder`: the model as step 1 writes it."""
+    materials = pd.read_csv(folder / "materials.csv")
     column = next((c for c in materials.columns if c.startswith("youngs_modulus") or c.startswith("E_")), None)
     density = next((c for c in materials.columns if c.startswith("density")), None)
-    missing = []
     for row in materials.to_dict("records"):
-        for target, key, share, unit in (("youngs_modulus", column, STIFFNESS_RANGE, "Pa"), ("density", density, DENSITY_RANGE, "kg/m3")):
+        for name, target, key, share, unit in (("E", "youngs_modulus", column, STIFFNESS_RANGE, "Pa"), ("rho", "density", density, DENSITY_RANGE, "kg/m3")):
             if key and row[key] == row[key] and row[key] > 0:
-                name = f"{'E' if target == 'youngs_modulus' else 'rho'}_{row['material']}"
-                text += (f'\n[[parameter]]\nname = "{name}"\ntarget = "{target}"\nof = ["{row["material"]}"]\nunit = "{unit}"\n'
-                         f"initial = {row[key]:.12g}\nlower = {row[key] * (1 - share):.12g}  # a start: state your own bounds\nupper = {row[key] * (1 + share):.12g}\n")
-    missing.append("bounds of the parameters: those of materials are a start (modulus ±20 %, density ±10 %); add supports, joints, masses that may be wrong")
-    return text, missing
+                text += _parameter(name, target, row["material"], unit, row[key], (1 - share, 1 + share))
+    missing = "bounds of the parameters: those of materials, springs and masses are a start (modulus ±20 %, density ±10 %, springs 0.2 to 5 times, masses 0.8 to 1.25 times)"
+    for name, target, file, limits in (("k", "spring_stiffness", "springs.csv", SPRING_LIMITS), ("m", "point_mass", "masses.csv", MASS_LIMITS)):
+        groups = list(dict.fromkeys(pd.read_csv(folder / file, dtype=str)["group"])) if (folder / file).is_file() else []
+        if len(groups) > MOST_GROUPS:
+            missing += f"; {file} has {len(groups)} groups: add those that may be wrong"
+            continue
+        for group in groups:
+            text += _parameter(name, target, group, "-", 1.0, limits)
+    return text, [missing]
+
+
+def _parameter(name: str, target: str, of: str, unit: str, initial: float, limits: tuple) -> str:
+    """A table [[parameter]]. `limits`: lower and upper bound over `initial`"""
+    return (f'\n[[parameter]]\nname = "{name}_{of}"\ntarget = "{target}"\nof = ["{of}"]\nunit = "{unit}"\n'
+            f"initial = {initial:.12g}\nlower = {initial * limits[0]:.12g}  # a start: state your own bounds\nupper = {initial * limits[1]:.12g}\n")
 
 
 def copy_model(model: Model, target: Path) -> str:

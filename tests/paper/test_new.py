@@ -7,6 +7,7 @@ import contextlib
 import csv
 import io
 import os
+import shutil
 import subprocess
 import sys
 import tempfile
@@ -291,6 +292,21 @@ class Study(unittest.TestCase):
         told = tomllib.loads((self.folder / "data/bar/bar.toml").read_text(encoding="utf-8"))
         self.assertEqual((told["title"], told["units"]), ("Bar", {"length": "m", "force": "N"}))
         self.assertEqual([(p["target"], p["initial"]) for p in told["parameter"]], [("youngs_modulus", 210e9), ("density", 7850.0)])
+
+    def test_groups_of_springs_and_masses_get_parameters(self):
+        """The template's frame without its parameters has a group of springs and one of masses; of more than eight groups none gets any."""
+        shutil.copytree(ROOT / "data/template/model", self.folder / "model")
+        (self.folder / "model/model.toml").write_text('title = "frame"\n', encoding="utf-8")
+        run = self.new("frame", "--from", "logger.csv", "sensors.csv", "model")
+        self.assertEqual(run.returncode, 0, run.stderr)
+        told = tomllib.loads((self.folder / "data/frame/model/model.toml").read_text(encoding="utf-8"))["parameter"]
+        self.assertEqual([(p["target"], p["of"], p["initial"], p["lower"], p["upper"]) for p in told if p["unit"] == "-"],
+                         [("spring_stiffness", ["base"], 1, 0.2, 5), ("point_mass", ["floor"], 1, 0.8, 1.25)])
+        (self.folder / "masses.csv").write_text("group,node,mass_kg\n" + "".join(f"m{i},5,{i}\n" for i in range(9)), encoding="utf-8")
+        (self.folder / "materials.csv").write_text("material,youngs_modulus_Pa,density_kg_m3\n", encoding="utf-8")
+        text, missing = model._parameters(self.folder, "")
+        self.assertEqual(text, "")
+        self.assertIn("masses.csv has 9 groups: add those that may be wrong", missing[0])
 
     def test_what_cannot_be_read_writes_nothing(self):
         (self.folder / "prose.csv").write_text("Dear all,\nnothing here is a number.\n", encoding="utf-8")
