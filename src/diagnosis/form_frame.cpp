@@ -93,6 +93,7 @@ std::vector<int> contrasts_of(const Candidate& candidate, const std::vector<Cont
   const auto add = [&](int contrast) {
     if (contrast >= 0 && std::find(out.begin(), out.end(), contrast) == out.end()) out.push_back(contrast);
   };
+  if (is_of_a_channel(candidate)) return out;  // the structure stays as it is
   if (!candidate.state.empty()) add(contrast_of_states(candidate, contrasts));
   if (candidate.state.empty())
     for (const ActionSpec& action : candidate.hypothesis->actions)

@@ -162,9 +162,6 @@ Index first_of_equals(const VectorXd& terms) {
   return std::find_if(terms.begin(), terms.end(), [&](double t) { return t >= top - rounding; }) - terms.begin();
 }
 
-// A wrong label of a mode is not included: it looks like an error of the form.
-bool is_of_a_channel(const Candidate& candidate) { return candidate.hypothesis->measurement && !candidate.channels.empty(); }
-
 std::vector<ActiveClass> lasting_classes(const LawSystem& system) {
   std::vector<ActiveClass> out;
   for (int c = 0; c < kFirstContrast; ++c)

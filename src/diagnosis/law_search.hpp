@@ -81,9 +81,6 @@ struct LawSearch {
 /// Whether several states are compared, and an entry acts equally in all of them.
 [[nodiscard]] bool is_model_error(const LawSetting& setting, const LawEntry& entry);
 
-/// Whether a candidate is a fault of a channel, which appears in all modes.
-[[nodiscard]] bool is_of_a_channel(const Candidate& candidate);
-
 /// Classes that are active in a system for any causes: those with columns, without the contrasts.
 [[nodiscard]] std::vector<ActiveClass> lasting_classes(const LawSystem& system);
 

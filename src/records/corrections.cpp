@@ -38,13 +38,13 @@ Action action_of(const std::string& text, const Place& place) {
 
 /// Content of one [[correction]], not checked yet.
 struct Said {
-  std::optional<std::string> channel, action, with;
+  std::optional<std::string> channel, action, with, state;
   std::optional<double> factor;
   Place action_place;
 };
 
 Said read_said(const io::TomlValue::Table& table, const std::string& file) {
-  static const std::vector<std::string> known = {"channel", "action", "with", "factor"};
+  static const std::vector<std::string> known = {"channel", "action", "with", "factor", "state"};
   Said said;
   for (const io::TomlEntry& entry : table) {
     const Place place{file, entry.line, entry.key};
@@ -55,6 +55,8 @@ Said read_said(const io::TomlValue::Table& table, const std::string& file) {
       said.action_place = place;
     } else if (entry.key == "with")
       said.with = io::text_of(entry.value, place);
+    else if (entry.key == "state")
+      said.state = io::text_of(entry.value, place);
     else if (entry.key == "factor")
       said.factor = factor_of(entry, place);
     else
@@ -74,6 +76,7 @@ Correction correction_of(const Said& said, const Place& place) {
   correction.place = place;
   correction.channel = *said.channel;
   correction.action = action_of(*said.action, said.action_place);
+  correction.state = said.state.value_or("");
   const bool has_with = said.with && !said.with->empty();
   if (correction.action == Action::exchange) {
     if (!has_with) needed("with", "name the channel that '" + correction.channel + "' is exchanged with");
@@ -103,7 +106,7 @@ std::optional<std::size_t> undone_by(const std::vector<Correction>& list, const 
     const Correction& earlier = list[i];
     const bool same = earlier.channel == next.channel && earlier.with == next.with;
     const bool turned = earlier.channel == next.with && earlier.with == next.channel;
-    if (earlier.action == next.action && (same || turned)) return i;
+    if (earlier.action == next.action && earlier.state == next.state && (same || turned)) return i;
     if (earlier.action == Action::exchange || next.action == Action::exchange)
       return std::nullopt;  // before an exchange the names mean other channels
   }
@@ -113,13 +116,14 @@ std::optional<std::size_t> undone_by(const std::vector<Correction>& list, const 
 std::string name_of(Correction::Action action) { return action_names()[static_cast<std::size_t>(action)]; }
 
 std::string words_of(const Correction& correction) {
+  const std::string where = correction.state.empty() ? "" : " in state " + correction.state;
   switch (correction.action) {
     case Action::reverse:
-      return correction.channel + " reversed";
+      return correction.channel + " reversed" + where;
     case Action::exchange:
-      return correction.channel + " and " + correction.with + " exchanged";
+      return correction.channel + " and " + correction.with + " exchanged" + where;
     case Action::scale:
-      return fmt::format("{} multiplied by {:.4g}", correction.channel, correction.factor);
+      return fmt::format("{} multiplied by {:.4g}{}", correction.channel, correction.factor, where);
   }
   return "";
 }
@@ -154,13 +158,15 @@ std::string corrections_toml(const std::vector<Correction>& corrections) {
                         io::toml_text(name_of(c.action)));
     if (c.action == Action::exchange) text += fmt::format("with = {}\n", io::toml_text(c.with));
     if (c.action == Action::scale) text += fmt::format("factor = {}\n", io::toml_number(c.factor));
+    if (!c.state.empty()) text += fmt::format("state = {}\n", io::toml_text(c.state));
   }
   return text;
 }
 
-CorrectedChannel corrected(const std::vector<Correction>& corrections, const std::string& channel) {
+CorrectedChannel corrected(const std::vector<Correction>& corrections, const std::string& channel, const std::string& state) {
   CorrectedChannel now{channel, 1.0};
   for (const Correction& c : corrections) {
+    if (!c.state.empty() && c.state != state) continue;
     if (c.action == Action::exchange && (now.name == c.channel || now.name == c.with))
       now.name = now.name == c.channel ? c.with : c.channel;
     else if (c.action == Action::reverse && now.name == c.channel)
@@ -183,13 +189,22 @@ void refuse_unknown_channels(const std::vector<Correction>& corrections, const s
   }
 }
 
-void correct(const std::vector<Correction>& corrections, FeatureRows& features) {
+void correct(const std::vector<Correction>& corrections, const std::vector<MeasuredCondition>& conditions,
+             FeatureRows& features) {
   if (corrections.empty()) return;
+  const std::vector<std::string> states = states_of(conditions);
+  for (const Correction& c : corrections)
+    if (!c.state.empty() && !contains(states, c.state))
+      throw InputError({c.place.file, c.place.line, "state"},
+                       fmt::format("'{}' is no state of the measurement{}", c.state, did_you_mean(c.state, states)),
+                       fmt::format("it has {}", fmt::join(states, ", ")));
   Eigen::VectorXd factors = Eigen::VectorXd::Ones(std::ssize(features.rows));
   for (std::size_t r = 0; r < features.rows.size(); ++r) {
     FeatureRow& row = features.rows[r];
     if (!row.is_shape() && (row.is_modal() || row.type == "stay_frequency_Hz")) continue;  // not by channel
-    const CorrectedChannel now = corrected(corrections, row.channel);
+    const auto condition = std::ranges::find(conditions, row.condition, &MeasuredCondition::name);
+    const CorrectedChannel now =
+        corrected(corrections, row.channel, condition == conditions.end() ? std::string() : condition->state);
     const bool is_signed = row.is_shape() || row.type.starts_with("static_");
     const double factor = is_signed                       ? now.factor
                           : row.type == "psd_floor_m2_s3" ? now.factor * now.factor
@@ -206,7 +221,7 @@ void correct(const std::vector<Correction>& corrections, FeatureRows& features) 
 void correct(const std::vector<Correction>& corrections, std::vector<MeasuredCondition>& conditions) {
   for (MeasuredCondition& condition : conditions) {
     if (condition.amplitude_channel.empty()) continue;
-    const CorrectedChannel now = corrected(corrections, condition.amplitude_channel);
+    const CorrectedChannel now = corrected(corrections, condition.amplitude_channel, condition.state);
     condition.amplitude_channel = now.name;
     if (condition.amplitude_m) *condition.amplitude_m *= std::abs(now.factor);
   }
@@ -216,15 +231,20 @@ void correct(const std::vector<Correction>& corrections, modal::ModeSet& modes, 
   if (corrections.empty()) return;
   const auto names = each_of(modes.dofs, &modal::ShapeDof::direction);
   refuse_unknown_channels(corrections, names, source);
-  for (const Correction& c : corrections)
+  for (const Correction& c : corrections) {
+    if (!c.state.empty())
+      throw InputError(
+          {c.place.file, c.place.line, "state"}, "is given, but " + source + " names no states",
+          "give the folder features of step 3, or the corrections of the state that was measured, without `state`");
     for (const std::string& name : {c.channel, c.with})
       if (std::ranges::count(names, name) > 1)
         throw InputError({c.place.file, c.place.line, "channel"},
                          fmt::format("'{}' stands at several points of {}", name, source),
                          "name the channel as the direction of its rows in shapes.csv");
+  }
   const Eigen::MatrixXcd recorded = modes.shapes;
   for (std::size_t i = 0; i < names.size(); ++i) {
-    const CorrectedChannel now = corrected(corrections, names[i]);
+    const CorrectedChannel now = corrected(corrections, names[i], "");
     const auto to = now.name == names[i] ? i : static_cast<std::size_t>(std::ranges::find(names, now.name) - names.begin());
     modes.shapes.row(static_cast<Index>(to)) = now.factor * recorded.row(static_cast<Index>(i));
   }

@@ -120,7 +120,7 @@ matching::Measured read_measured_features(const std::filesystem::path& folder, c
   if (io::has_table(folder / "channels.csv")) channels = read_channels(folder / "channels.csv");
   FeatureRows read = read_feature_rows(folder, conditions, channels);
   refuse_unknown_channels(choice.corrections, each_of(channels, &matching::Channel::name), (folder / "channels.csv").string());
-  correct(choice.corrections, read);
+  correct(choice.corrections, conditions, read);
 
   std::map<std::string, MeasuredMode> found;
   std::vector<std::string> names;

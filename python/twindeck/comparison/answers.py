@@ -86,7 +86,8 @@ def _form(a: dict, b: dict) -> list:
 
 def _correction(entry: dict) -> str:
     more = f" with {entry['with']}" if entry.get("with") else f" by {entry['factor']:.6g}" if entry.get("action") == "scale" else ""
-    return f"{entry.get('action')} {entry.get('channel')}{more}"
+    state = f" in state {entry['state']}" if entry.get("state") else ""
+    return f"{entry.get('action')} {entry.get('channel')}{more}{state}"
 
 
 def _listed(item: str, a: list, b: list) -> list:

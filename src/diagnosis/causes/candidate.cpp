@@ -271,6 +271,12 @@ bool is_a_part(const Hypothesis& h) {
   });
 }
 
+/// Whether a cause is a fault of sensors, which may be mounted anew for each state.
+bool is_of_channels(const Hypothesis& h) {
+  return h.measurement &&
+         std::ranges::all_of(h.actions, [](const ActionSpec& action) { return acts_on(action.primitive) == ActsOn::channel; });
+}
+
 /// Consecutive states in which a hypothesis acts; empty: all states.
 struct AskedStates {
   std::vector<std::string> states;
@@ -279,9 +285,15 @@ struct AskedStates {
 
 /// States in which a hypothesis is tried. A part may change in one state alone. With three and more states, it may also change
 /// from one state on, because damage remains until it is repaired. A part that differs in all states is an error of the model.
+/// Sensors are taken down and mounted again, so a fault of one is tried in each state alone too.
 std::vector<AskedStates> states_asked(const Hypothesis& h, const std::vector<std::string>& states) {
-  if (states.size() < 2 || !is_a_part(h)) return {{}};
   std::vector<AskedStates> out;
+  if (states.size() > 1 && is_of_channels(h))
+    for (const std::string& state : states) out.push_back({{state}, "state " + state});
+  if (states.size() < 2 || !is_a_part(h)) {
+    out.emplace_back();
+    return out;
+  }
   for (auto state = states.begin() + 1; state != states.end(); ++state) out.push_back({{*state}, "state " + *state});
   for (auto state = states.begin() + 1; state + 1 != states.end(); ++state)
     out.push_back({{state, states.end()}, fmt::format("from state {} on", *state)});

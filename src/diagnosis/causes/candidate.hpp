@@ -56,6 +56,12 @@ struct Candidate {
   [[nodiscard]] double value(const Expression& expression, const Eigen::VectorXd& a) const;
 };
 
+/// Whether a candidate is a fault of a channel, which appears in all modes. A wrong label of a mode is none: it looks like an
+/// error of the form.
+[[nodiscard]] inline bool is_of_a_channel(const Candidate& candidate) {
+  return candidate.hypothesis->measurement && !candidate.channels.empty();
+}
+
 /// A candidate with magnitudes.
 struct Cause {
   const Candidate* candidate = nullptr;
@@ -74,7 +80,8 @@ struct Instantiated {
 
 /// Makes a candidate of every hypothesis at every location of its set. If the rows come from several states of the structure,
 /// changes between states are tried: in one state alone or, with three and more states, from one state on. Factors between
-/// states range from 0.005 to 20. Errors of the model and faults of a measurement act in all states. Families whose needs the
+/// states range from 0.005 to 20. Faults of channels are tried in all states and in each state alone, because sensors are
+/// taken down and mounted again. Other errors of the model and of the measurement act in all states. Families whose needs the
 /// data do not meet, or whose set is empty, go to `invisible` with the reason.
 /// @throws InputError  naming file and line for an unknown attribute, or bounds that are not low < high
 [[nodiscard]] Instantiated instantiate(const std::vector<Hypothesis>& catalogue, const ReducedModel& model,

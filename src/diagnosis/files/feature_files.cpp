@@ -55,7 +55,7 @@ void read_quality(const std::filesystem::path& file, const std::vector<records::
   if (!io::has_table(file)) return;
   const auto table = io::CsvTable::read(file, {"channel"}, {}, true);
   for (std::size_t row = 0; row < table.rows(); ++row) {
-    const std::string channel = corrected(corrections, table.text(row, "channel")).name;
+    const std::string channel = corrected(corrections, table.text(row, "channel"), "").name;
     const double samples = table.number_or(row, "samples", 0.0);
     if (samples > 0.0)
       features.clipped[channel] = std::max(features.clipped[channel], table.number_or(row, "clipped", 0.0) / samples);
@@ -87,7 +87,7 @@ FeatureSet read_all_features(const std::filesystem::path& folder, const records:
                        "");
   }
   records::FeatureRows read = read_feature_rows(folder, listed, channels);
-  correct(choice.corrections, read);
+  correct(choice.corrections, listed, read);
   std::vector<int> kept;
   for (std::size_t r = 0; r < read.rows.size(); ++r) {
     const auto is_its = [&](const records::MeasuredCondition& c) { return c.name == read.rows[r].condition; };

@@ -23,6 +23,7 @@ records::Correction undo(const ActionSpec& action, const Cause& cause, const std
   const auto name = [&](std::size_t which) { return channels[static_cast<std::size_t>(candidate.channels[which])]; };
   records::Correction correction;
   correction.channel = name(0);
+  correction.state = candidate.state;
   if (action.primitive == Primitive::channel_swap) {
     correction.action = records::Correction::Action::exchange;
     correction.with = name(1);

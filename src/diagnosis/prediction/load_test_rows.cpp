@@ -120,7 +120,7 @@ void Predictor::predict_static_row(const SolvedLoadTest& test, std::size_t r) {
   const LoadTests& tests = map_.model().load_tests;
   const Row& row = map_.features().rows[r];
   const auto at = static_cast<Index>(r);
-  const double gain = channel_factor_[row.channel];
+  const double gain = reading(row.condition).factor[row.channel];
   const Index unknowns = test.slopes.cols();
   const std::vector<int>& columns = test.state->columns;
   RowVectorXd shown;  // d row / d q in the state's columns
@@ -133,9 +133,10 @@ void Predictor::predict_static_row(const SolvedLoadTest& test, std::size_t r) {
     value = force_of(tests, row.channel, test.load_case, test.ground, test.q);
     if (here.factor != 0.0) direct = value / here.factor * test.relative.row(gauge.ground).transpose();
   } else {
-    shown = row.type == RowType::static_displacement ? RowVectorXd(channel_rows(columns).row(row.channel))
-            : row.type == RowType::static_rotation   ? RowVectorXd(tests.rotation.row(row.channel)(columns))
-                                                     : RowVectorXd(tests.strain.row(row.channel)(columns));
+    shown = row.type == RowType::static_displacement
+                ? RowVectorXd(channel_rows(reading(row.condition), columns).row(row.channel))
+            : row.type == RowType::static_rotation ? RowVectorXd(tests.rotation.row(row.channel)(columns))
+                                                   : RowVectorXd(tests.strain.row(row.channel)(columns));
     value = shown.dot(test.answer.head(std::ssize(columns)));
   }
   out_.g[at] = gain * value;

@@ -25,12 +25,12 @@ FormModes Predictor::form_modes() {
   // Likeness in the coordinates that all states have. Shapes are mass-normalised with all moving masses. So the mode of an
   // oscillator, in which the structure hardly moves, resembles no mode of the structure.
   const Index c = map_.model().common;
-  std::map<const UndampedModes*, int> known;
+  std::map<std::pair<const UndampedModes*, const Reading*>, int> known;
   std::vector<MatrixXd> common;  // modes of each structure (c × n_modes)
   MatrixXd weighted;             // modes of the base, times the mass
-  const auto structure_of = [&](const SolvedState& state) {
+  const auto structure_of = [&](const SolvedState& state, const Reading& read) {
     const UndampedModes& all = undamped_.of(state.state.stiffness, state.state.mass);
-    const auto [at, is_new] = known.try_emplace(&all, static_cast<int>(std::ssize(out.structures)));
+    const auto [at, is_new] = known.try_emplace({&all, &read}, static_cast<int>(std::ssize(out.structures)));
     if (!is_new) return at->second;
     const Index count = std::min<Index>((all.mu.array() > 0.0).count(), state.modes.s.size() + kFurtherModes);
     ModelModes modes{VectorXd(count), {}, {}};
@@ -39,7 +39,7 @@ FormModes Predictor::form_modes() {
       modes.omega_rad_s[j] = std::sqrt(std::max(all.eigenvalue(j), 0.0));
       shapes.col(j) /= std::sqrt(all.mu[j]);
     }
-    modes.shapes = channel_factor_.asDiagonal() * channel_rows(state.columns) * shapes.topRows(std::ssize(state.columns));
+    modes.shapes = read.factor.asDiagonal() * channel_rows(read, state.columns) * shapes.topRows(std::ssize(state.columns));
     if (out.structures.empty()) weighted = base_.common_mass * shapes.topRows(c);
     modes.along =
         out.structures.empty() ? MatrixXd::Identity(count, count) : MatrixXd(weighted.transpose() * shapes.topRows(c));
@@ -51,7 +51,7 @@ FormModes Predictor::form_modes() {
     const MeasuredMode& measured = map_.modes_[m];
     PairedMode mode{-1, measured.condition, measured.frequency, measured.real_rows, measured.real_channels, 0, 0};
     const SolvedState& state = solved(measured.condition);
-    mode.structure = structure_of(state);
+    mode.structure = structure_of(state, reading(measured.condition));
     if (prediction.paired[m] >= 0) {
       const VectorXd re = base_.common_mass * state.modes.shapes.col(prediction.paired[m]).head(c).real(),
                      im = base_.common_mass * state.modes.shapes.col(prediction.paired[m]).head(c).imag();

@@ -75,21 +75,22 @@ const MeasuredMode& Predictor::shaped_like(const MeasuredMode& measured) const {
         shaped = &other;
         break;
       }
-  each_action(Primitive::modes_exchange, [&](const Candidate& c, const VectorXd&, const ActionSpec&) {
-    // The shape under this label and that of the next mode of the list are exchanged. The list is not sorted by frequency,
-    // because close modes differ in order between data sets.
-    std::vector<const MeasuredMode*> same;
-    for (const MeasuredMode& other : map_.modes_)
-      if (other.condition == shaped->condition && has_shape(other)) same.push_back(&other);
-    for (std::size_t k = 0; k + 1 < same.size(); ++k) {
-      if (same[k]->label != c.mode) continue;
-      if (shaped == same[k])
-        shaped = same[k + 1];
-      else if (shaped == same[k + 1])
-        shaped = same[k];
-      break;
-    }
-  });
+  each_action(Primitive::modes_exchange, map_.features().conditions[static_cast<std::size_t>(measured.condition)],
+              [&](const Candidate& c, const VectorXd&, const ActionSpec&) {
+                // The shape under this label and that of the next mode of the list are exchanged. The list is not sorted by
+                // frequency, because close modes differ in order between data sets.
+                std::vector<const MeasuredMode*> same;
+                for (const MeasuredMode& other : map_.modes_)
+                  if (other.condition == shaped->condition && has_shape(other)) same.push_back(&other);
+                for (std::size_t k = 0; k + 1 < same.size(); ++k) {
+                  if (same[k]->label != c.mode) continue;
+                  if (shaped == same[k])
+                    shaped = same[k + 1];
+                  else if (shaped == same[k + 1])
+                    shaped = same[k];
+                  break;
+                }
+              });
   return *shaped;
 }
 
@@ -101,7 +102,7 @@ VectorXd Predictor::unlike_measured(const MeasuredMode& shaped, const SolvedStat
       if (shaped.imag_channels[q] == shaped.real_channels[k]) value += Complex(0.0, map_.values_[shaped.imag_rows[q]]);
     y[static_cast<Index>(k)] = value;
   }
-  const MatrixXcd moved = motion(state)(shaped.real_channels, Eigen::all);
+  const MatrixXcd moved = motion(state, reading(shaped.condition))(shaped.real_channels, Eigen::all);
   VectorXd unlike = 1.0 - likeness(moved, y).array();
   const VectorXd own =
       moved.colwise().squaredNorm();  // a mode with a measured shape moves the channels, so no mode at rest can be its partner

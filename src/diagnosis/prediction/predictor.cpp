@@ -13,6 +13,7 @@ namespace {
 
 using Complex = std::complex<double>;
 using Eigen::Index;
+using Eigen::MatrixXcd;
 using Eigen::VectorXcd;
 using Eigen::VectorXd;
 
@@ -36,15 +37,25 @@ double Predictor::structural_damping(const std::string& label) const {
 }
 
 void Predictor::read_channels() {
+  std::map<std::vector<bool>, std::shared_ptr<const Reading>> known;  // by the causes that act
+  for (const Condition& condition : map_.features().conditions) {
+    std::vector<bool> acting;
+    for (const Cause& cause : causes_)
+      acting.push_back(is_of_a_channel(*cause.candidate) && cause.candidate->acts_in(condition));
+    std::shared_ptr<const Reading>& here = known[acting];
+    if (!here) here = std::make_shared<const Reading>(reading_in(condition));
+    reading_of_.push_back(here);
+  }
+}
+
+Predictor::Reading Predictor::reading_in(const Condition& condition) const {
   const auto n = static_cast<Index>(map_.features().channels.size());
-  channel_views_.resize(static_cast<std::size_t>(n));
-  channel_factor_ = VectorXd::Ones(n);
-  channel_delay_s_ = VectorXd::Zero(n);
-  for (Index c = 0; c < n; ++c) channel_views_[static_cast<std::size_t>(c)] = {{4 * c, 1.0}};
-  const auto view = [&](int channel) -> auto& { return channel_views_[static_cast<std::size_t>(channel)]; };
-  each_action(Primitive::channel_swap,
+  Reading out{{}, VectorXd::Ones(n), VectorXd::Zero(n)};
+  for (Index c = 0; c < n; ++c) out.views.push_back({{4 * c, 1.0}});
+  const auto view = [&](int channel) -> auto& { return out.views[static_cast<std::size_t>(channel)]; };
+  each_action(Primitive::channel_swap, condition,
               [&](const Candidate& c, const VectorXd&, const ActionSpec&) { view(c.channels[0]).swap(view(c.channels[1])); });
-  each_action(Primitive::channel_rotate, [&](const Candidate& c, const VectorXd& a, const ActionSpec& action) {
+  each_action(Primitive::channel_rotate, condition, [&](const Candidate& c, const VectorXd& a, const ActionSpec& action) {
     const int channel = c.channels[0];
     const double angle = c.value(action.number.at("angle"), a) * std::numbers::pi / 180.0;
     const Eigen::Vector3d d = map_.features().direction[static_cast<std::size_t>(channel)];
@@ -56,48 +67,45 @@ void Predictor::read_channels() {
     for (auto& [row, weight] : view(channel)) weight *= std::cos(angle);
     for (int k = 0; k < 3; ++k) view(channel).emplace_back(4 * channel + 1 + k, std::sin(angle) * beside[k]);
   });
-  each_action(Primitive::channel_gain, [&](const Candidate& c, const VectorXd& a, const ActionSpec& action) {
-    channel_factor_[c.channels[0]] *= c.value(action.number.at("factor"), a);
+  each_action(Primitive::channel_gain, condition, [&](const Candidate& c, const VectorXd& a, const ActionSpec& action) {
+    out.factor[c.channels[0]] *= c.value(action.number.at("factor"), a);
   });
-  each_action(Primitive::channel_sign,
-              [&](const Candidate& c, const VectorXd&, const ActionSpec&) { channel_factor_[c.channels[0]] *= -1.0; });
-  each_action(Primitive::channel_delay, [&](const Candidate& c, const VectorXd& a, const ActionSpec& action) {
-    channel_delay_s_[c.channels[0]] += c.value(action.number.at("delay"), a);
+  each_action(Primitive::channel_sign, condition,
+              [&](const Candidate& c, const VectorXd&, const ActionSpec&) { out.factor[c.channels[0]] *= -1.0; });
+  each_action(Primitive::channel_delay, condition, [&](const Candidate& c, const VectorXd& a, const ActionSpec& action) {
+    out.delay_s[c.channels[0]] += c.value(action.number.at("delay"), a);
   });
   for (std::size_t j = 0; j < map_.nuisances().size(); ++j) {
     const Nuisance& v = map_.nuisances()[j];
-    if (v.kind == Nuisance::Kind::gain) channel_factor_[v.index] *= 1.0 + v.deviation * base_.x[static_cast<Index>(j)];
+    if (v.kind == Nuisance::Kind::gain) out.factor[v.index] *= 1.0 + v.deviation * base_.x[static_cast<Index>(j)];
   }
+  return out;
 }
 
-Eigen::MatrixXd Predictor::channel_rows(const std::vector<int>& columns) const {
-  Eigen::MatrixXd out = Eigen::MatrixXd::Zero(std::ssize(channel_views_), std::ssize(columns));
+Eigen::MatrixXd Predictor::channel_rows(const Reading& reading, const std::vector<int>& columns) const {
+  Eigen::MatrixXd out = Eigen::MatrixXd::Zero(std::ssize(reading.views), std::ssize(columns));
   const Eigen::MatrixXd& sensors = map_.model().sensors;
   for (Index c = 0; c < out.rows(); ++c)
-    for (const auto& [row, weight] : channel_views_[static_cast<std::size_t>(c)])
+    for (const auto& [row, weight] : reading.views[static_cast<std::size_t>(c)])
       for (Index k = 0; k < out.cols(); ++k) out(c, k) += weight * sensors(row, columns[static_cast<std::size_t>(k)]);
   return out;
 }
 
-const Eigen::MatrixXcd& Predictor::motion(const SolvedState& state) {
-  const auto [at, is_new] = motion_.try_emplace(&state);
+const Eigen::MatrixXcd& Predictor::motion(const SolvedState& state, const Reading& reading) {
+  const auto [at, is_new] = motion_.try_emplace({&state, &reading});
   if (!is_new) return at->second;
   const auto n = static_cast<Index>(state.columns.size());
-  const Eigen::MatrixXd rows = channel_factor_.asDiagonal() * channel_rows(state.columns);
+  const Eigen::MatrixXd rows = reading.factor.asDiagonal() * channel_rows(reading, state.columns);
   Eigen::MatrixXcd& h = at->second;
   h.resize(rows.rows(), state.modes.s.size());
   h.real() = rows * state.modes.shapes.topRows(n).real();
   h.imag() = rows * state.modes.shapes.topRows(n).imag();
   for (Index c = 0; c < h.rows(); ++c) {
-    if (channel_delay_s_[c] == 0.0) continue;
+    if (reading.delay_s[c] == 0.0) continue;
     for (Index m = 0; m < h.cols(); ++m)
-      h(c, m) *= std::exp(Complex(0.0, -2.0 * std::numbers::pi * state.modes.frequency_Hz(m) * channel_delay_s_[c]));
+      h(c, m) *= std::exp(Complex(0.0, -2.0 * std::numbers::pi * state.modes.frequency_Hz(m) * reading.delay_s[c]));
   }
   return h;
-}
-
-VectorXcd Predictor::shape_at(const std::vector<int>& channels, const SolvedState& state, Index mode) {
-  return motion(state).col(mode)(channels);
 }
 
 /// Shape of the model at the channels, scaled to the measured one by weighted least squares on all rows of the shape.
@@ -112,14 +120,15 @@ Predictor::ScaledShape Predictor::scaled_shape(const MeasuredMode& measured, con
   ScaledShape out;
   out.complex_rows = !measured.imag_rows.empty();
   VectorXcd& h = out.real_part;
-  h = shape_at(measured.real_channels, state, mode);
+  const MatrixXcd& moved = motion(state, reading(measured.condition));
+  h = moved.col(mode)(measured.real_channels);
   if (!out.complex_rows) {
     const Complex square = (h.transpose() * h)(0);
     out.turn = std::exp(Complex(0.0, -0.5 * std::arg(square)));
     h *= out.turn;
   }
   VectorXcd& hi = out.imaginary_part;
-  if (out.complex_rows) hi = shape_at(measured.imag_channels, state, mode);
+  if (out.complex_rows) hi = moved.col(mode)(measured.imag_channels);
   Complex numerator = 0.0;
   double denominator = 0.0;
   for (Index k = 0; k < std::ssize(measured.real_rows); ++k) {
@@ -172,7 +181,8 @@ void Predictor::differentiate_shape(const MeasuredMode& measured, SolvedState& s
   const ModeDerivative& d = derivative(state, mode);
   const auto& position = changes(state).position;
   const auto n = static_cast<Index>(state.columns.size());
-  const Eigen::MatrixXd rows_here = channel_factor_.asDiagonal() * channel_rows(state.columns);
+  const Reading& read = reading(measured.condition);
+  const Eigen::MatrixXd rows_here = read.factor.asDiagonal() * channel_rows(read, state.columns);
   for (const bool imaginary : {false, true}) {
     const auto& rows = imaginary ? measured.imag_rows : measured.real_rows;
     const auto& channels = imaginary ? measured.imag_channels : measured.real_channels;
@@ -182,7 +192,7 @@ void Predictor::differentiate_shape(const MeasuredMode& measured, SolvedState& s
     change.real() = picked * d.shapes.topRows(n).real();
     change.imag() = picked * d.shapes.topRows(n).imag();
     for (std::size_t k = 0; k < rows.size(); ++k) {
-      const Complex late = std::exp(Complex(0.0, -2.0 * std::numbers::pi * f * channel_delay_s_[channels[k]]));
+      const Complex late = std::exp(Complex(0.0, -2.0 * std::numbers::pi * f * read.delay_s[channels[k]]));
       for (std::size_t j = 0; j < position.size(); ++j) {
         const Complex value = shape.scale * shape.turn * late * change(static_cast<Index>(k), static_cast<Index>(j));
         out_.jacobian(rows[k], position[j]) = imaginary ? value.imag() : value.real();
@@ -264,19 +274,20 @@ void Predictor::differentiate_mode(const MeasuredMode& measured, SolvedState& st
 
 int Predictor::mode_of_shape(const MeasuredMode& measured, std::size_t position) const {
   int shape_of = out_.paired[position];
-  each_action(Primitive::modes_exchange, [&](const Candidate& c, const VectorXd&, const ActionSpec&) {
-    std::vector<std::size_t> same;
-    for (std::size_t m = 0; m < map_.modes_.size(); ++m)
-      if (map_.modes_[m].condition == measured.condition && map_.modes_[m].real_rows.size() >= 2) same.push_back(m);
-    for (std::size_t k = 0; k + 1 < same.size(); ++k) {
-      if (map_.modes_[same[k]].label != c.mode) continue;
-      if (position == same[k])
-        shape_of = out_.paired[same[k + 1]];
-      else if (position == same[k + 1])
-        shape_of = out_.paired[same[k]];
-      break;
-    }
-  });
+  each_action(Primitive::modes_exchange, map_.features().conditions[static_cast<std::size_t>(measured.condition)],
+              [&](const Candidate& c, const VectorXd&, const ActionSpec&) {
+                std::vector<std::size_t> same;
+                for (std::size_t m = 0; m < map_.modes_.size(); ++m)
+                  if (map_.modes_[m].condition == measured.condition && map_.modes_[m].real_rows.size() >= 2) same.push_back(m);
+                for (std::size_t k = 0; k + 1 < same.size(); ++k) {
+                  if (map_.modes_[same[k]].label != c.mode) continue;
+                  if (position == same[k])
+                    shape_of = out_.paired[same[k + 1]];
+                  else if (position == same[k + 1])
+                    shape_of = out_.paired[same[k]];
+                  break;
+                }
+              });
   return shape_of;
 }
 

@@ -87,9 +87,17 @@ class Predictor {
   using Complex = std::complex<double>;
 
   // structure (structure_of_causes.cpp)
+  /// What the channels read: rows of the sensors with weights, after rotations and exchanges by causes; gains and signs;
+  /// delays.
+  struct Reading {
+    std::vector<std::vector<std::pair<Eigen::Index, double>>> views;
+    Eigen::VectorXd factor, delay_s;
+  };
   void read_channels();
+  [[nodiscard]] Reading reading_in(const Condition& condition) const;
+  [[nodiscard]] const Reading& reading(int condition) const { return *reading_of_[static_cast<std::size_t>(condition)]; }
   /// Motion at the channels, without gains, per unit of some of the reduced model's coordinates (n_channels × n_columns).
-  [[nodiscard]] Eigen::MatrixXd channel_rows(const std::vector<int>& columns) const;
+  [[nodiscard]] Eigen::MatrixXd channel_rows(const Reading& reading, const std::vector<int>& columns) const;
   [[nodiscard]] bool acts(const Cause& cause, const ActionSpec& action, const Condition& condition) const;
   /// Relative change of a location's stiffness by an action, 0 for an action of another kind.
   [[nodiscard]] double stiffness_change(const Cause& cause, const ActionSpec& action, const Condition& condition) const;
@@ -203,16 +211,8 @@ class Predictor {
   void predict_static_row(const SolvedLoadTest& test, std::size_t row);
 
   /// Motion of each mode of a state at the channels (n_channels × n_modes), including gains, signs and delays of causes.
-  [[nodiscard]] const Eigen::MatrixXcd& motion(const SolvedState& state);
-  [[nodiscard]] Eigen::VectorXcd shape_at(const std::vector<int>& channels, const SolvedState& state, Eigen::Index mode);
-  /// Calls fn(candidate, coordinates, action) for all causes with an action of this primitive.
-  template <typename Use>
-  void each_action(Primitive primitive, Use use) const {
-    for (const Cause& cause : causes_)
-      for (const ActionSpec& action : cause.candidate->hypothesis->actions)
-        if (action.primitive == primitive) use(*cause.candidate, cause.a, action);
-  }
-  /// The same for causes that act in the state of a condition.
+  [[nodiscard]] const Eigen::MatrixXcd& motion(const SolvedState& state, const Reading& reading);
+  /// Calls fn(candidate, coordinates, action) for all causes with an action of this primitive in the state of a condition.
   template <typename Use>
   void each_action(Primitive primitive, const Condition& condition, Use use) const {
     for (const Cause& cause : causes_) {
@@ -234,12 +234,10 @@ class Predictor {
   const FeatureMap::Base& base_;
   const std::vector<Cause>& causes_;
   bool with_jacobian_;
-  mutable std::vector<int> columns_;                     // of the state being built
-  mutable std::vector<SolvedState::Followed> followed_;  // likewise
-  /// Rows of the sensors that each channel reads, with weights, after rotations and exchanges by causes.
-  std::vector<std::vector<std::pair<Eigen::Index, double>>> channel_views_;
-  Eigen::VectorXd channel_factor_, channel_delay_s_;
-  std::map<const SolvedState*, Eigen::MatrixXcd> motion_;
+  mutable std::vector<int> columns_;                        // of the state being built
+  mutable std::vector<SolvedState::Followed> followed_;     // likewise
+  std::vector<std::shared_ptr<const Reading>> reading_of_;  // of each condition
+  std::map<std::pair<const SolvedState*, const Reading*>, Eigen::MatrixXcd> motion_;
   std::map<std::pair<std::vector<double>, std::vector<double>>, std::shared_ptr<SolvedState>> own_;
   mutable std::map<std::vector<int>, std::pair<Eigen::MatrixXd, Eigen::MatrixXd>> matrices_;
   UndampedStore undamped_;

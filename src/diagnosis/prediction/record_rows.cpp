@@ -56,14 +56,16 @@ Predictor::ExcitedMode Predictor::excited_mode(int c, SolvedState& state, Index 
 
 void Predictor::predict_floor(std::size_t r) {
   const Row& row = map_.features().rows[r];
+  const Condition& condition = map_.features().conditions[static_cast<std::size_t>(row.condition)];
   const auto at = static_cast<Index>(r);
   const Index j = level_of(row.condition, true);
   const Nuisance& level = map_.nuisances_[static_cast<std::size_t>(j)];
   double g = level.deviation * base_.x[j];
-  each_action(Primitive::channel_floor, [&](const Candidate& candidate, const VectorXd& a, const ActionSpec& action) {
-    if (candidate.channels[0] == row.channel) g += std::log(candidate.value(action.number.at("factor"), a));
-  });
-  each_action(Primitive::channel_gain, [&](const Candidate& candidate, const VectorXd& a, const ActionSpec& action) {
+  each_action(Primitive::channel_floor, condition,
+              [&](const Candidate& candidate, const VectorXd& a, const ActionSpec& action) {
+                if (candidate.channels[0] == row.channel) g += std::log(candidate.value(action.number.at("factor"), a));
+              });
+  each_action(Primitive::channel_gain, condition, [&](const Candidate& candidate, const VectorXd& a, const ActionSpec& action) {
     if (candidate.channels[0] == row.channel) g += 2.0 * std::log(candidate.value(action.number.at("factor"), a));
   });
   out_.g[at] = g;
@@ -75,10 +77,11 @@ void Predictor::predict_rms(std::size_t r, SolvedState& state, const std::vector
   const auto at = static_cast<Index>(r);
   double variance = 0.0;
   VectorXd slope = VectorXd::Zero(with_jacobian_ ? static_cast<Index>(map_.nuisances_.size()) : 0);
-  const Eigen::RowVectorXd sensor = channel_factor_[row.channel] * channel_rows(state.columns).row(row.channel);
+  const Reading& read = reading(row.condition);
+  const Eigen::RowVectorXd sensor = read.factor[row.channel] * channel_rows(read, state.columns).row(row.channel);
   for (Index i = 0; i < state.modes.s.size(); ++i) {
     const ExcitedMode& mode = excited[static_cast<std::size_t>(i)];
-    const double square = std::norm(motion(state)(row.channel, i));
+    const double square = std::norm(motion(state, read)(row.channel, i));
     variance += mode.weight * square;
     if (!with_jacobian_) continue;
     const ModeDerivative& d = derivative(state, i);
@@ -90,9 +93,10 @@ void Predictor::predict_rms(std::size_t r, SolvedState& state, const std::vector
     slope += mode.weight * square * mode.slope;
   }
   double gain = 1.0;
-  each_action(Primitive::channel_limit, [&](const Candidate& candidate, const VectorXd& a, const ActionSpec& action) {
-    if (candidate.channels[0] == row.channel) gain *= candidate.value(action.number.at("factor"), a);
-  });
+  each_action(Primitive::channel_limit, map_.features().conditions[static_cast<std::size_t>(row.condition)],
+              [&](const Candidate& candidate, const VectorXd& a, const ActionSpec& action) {
+                if (candidate.channels[0] == row.channel) gain *= candidate.value(action.number.at("factor"), a);
+              });
   const Index j = level_of(row.condition, false);
   const Nuisance& level = map_.nuisances_[static_cast<std::size_t>(j)];
   out_.g[at] = 0.5 * std::log(std::max(variance, 1e-300)) + std::log(gain) + level.deviation * base_.x[j];

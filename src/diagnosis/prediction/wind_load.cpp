@@ -43,15 +43,15 @@ Predictor::WindNumbers Predictor::wind_numbers(const Condition& condition, const
   using A = const ActionSpec&;
   using C = const Candidate&;
   using V = const Eigen::VectorXd&;
-  each_action(Primitive::wind_speed_power, [&](C c, V a, A x) { w.power += number(c, a, x, "exponent"); });
-  each_action(Primitive::wind_skew_power, [&](C c, V a, A x) { w.skew += number(c, a, x, "exponent"); });
-  each_action(Primitive::wind_drag, [&](C c, V a, A x) { w.drag *= number(c, a, x, "factor"); });
-  each_action(Primitive::wind_lift, [&](C c, V a, A x) { w.lift *= number(c, a, x, "factor"); });
-  each_action(Primitive::wind_length_scale, [&](C c, V a, A x) { w.length *= number(c, a, x, "factor"); });
-  each_action(Primitive::wind_intensity, [&](C c, V a, A x) { w.intensity *= number(c, a, x, "factor"); });
-  each_action(Primitive::wind_coherence, [&](C c, V a, A x) { w.coherence *= number(c, a, x, "factor"); });
-  each_action(Primitive::wind_sheltered, [&](C c, V a, A x) { w.lee *= number(c, a, x, "factor"); });
-  each_action(Primitive::wind_resonance, [&](C c, V a, A x) {
+  each_action(Primitive::wind_speed_power, condition, [&](C c, V a, A x) { w.power += number(c, a, x, "exponent"); });
+  each_action(Primitive::wind_skew_power, condition, [&](C c, V a, A x) { w.skew += number(c, a, x, "exponent"); });
+  each_action(Primitive::wind_drag, condition, [&](C c, V a, A x) { w.drag *= number(c, a, x, "factor"); });
+  each_action(Primitive::wind_lift, condition, [&](C c, V a, A x) { w.lift *= number(c, a, x, "factor"); });
+  each_action(Primitive::wind_length_scale, condition, [&](C c, V a, A x) { w.length *= number(c, a, x, "factor"); });
+  each_action(Primitive::wind_intensity, condition, [&](C c, V a, A x) { w.intensity *= number(c, a, x, "factor"); });
+  each_action(Primitive::wind_coherence, condition, [&](C c, V a, A x) { w.coherence *= number(c, a, x, "factor"); });
+  each_action(Primitive::wind_sheltered, condition, [&](C c, V a, A x) { w.lee *= number(c, a, x, "factor"); });
+  each_action(Primitive::wind_resonance, condition, [&](C c, V a, A x) {
     if (!c.mode.empty() && c.mode != label) return;
     const double at = number(c, a, x, "speed");
     w.resonance += number(c, a, x, "ratio") * std::exp(-0.5 * std::pow((*condition.wind_m_s - at) / (0.15 * at), 2));

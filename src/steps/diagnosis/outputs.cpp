@@ -334,7 +334,7 @@ void write_diagnosis(const Diagnosis& result, const std::vector<diagnosis::Findi
   json["measurement_corrections"] = nlohmann::ordered_json::array();
   for (const records::Correction& c : told.corrections)
     json["measurement_corrections"].push_back(
-        {{"channel", c.channel}, {"action", name_of(c.action)}, {"with", c.with}, {"factor", c.factor}});
+        {{"channel", c.channel}, {"action", name_of(c.action)}, {"with", c.with}, {"factor", c.factor}, {"state", c.state}});
   json["localisation"] = nlohmann::ordered_json::array();
   for (const auto& at : result.localisation)
     json["localisation"].push_back(
@@ -390,8 +390,8 @@ std::vector<std::string> write_extended_model(const diagnosis::DiagnosedModel& m
   bool measurement = false;
   std::size_t held = 0;  // effects of this state so far
   for (const diagnosis::Effect& effect : result.effects) {
-    measurement = measurement || effect.cause.candidate->hypothesis->measurement;
     const bool is_here = of_state(effect);
+    measurement = measurement || (is_here && effect.cause.candidate->hypothesis->measurement);
     list += listed(effect, several, is_here && extended.holds[held]);
     if (is_here) ++held;
     if (!is_here) others.push_back(effect.cause.candidate->key());
@@ -401,7 +401,7 @@ std::vector<std::string> write_extended_model(const diagnosis::DiagnosedModel& m
   else
     model_io::write_matrix_model(extended.system, folder);
   model_io::carry_load_cases(model.loaded.source, folder);
-  if (measurement) write_corrected_channels(diagnosis::corrected_channels(model.channels, result), folder / "channels.csv");
+  if (measurement) write_corrected_channels(diagnosis::corrected_channels(model.channels, here), folder / "channels.csv");
   io::write_file_atomically(folder / "extension.toml", list);
   return others;
 }

@@ -54,7 +54,7 @@ TEST(CorrectionsOf, UndoWhatTheModelOfTheChannelsDoes) {
     const diagnosis::Row& row = features.rows[r];
     if (row.type != diagnosis::RowType::shape || open.contains(static_cast<int>(r))) continue;
     const std::string& channel = features.channels[static_cast<std::size_t>(row.channel)];
-    const records::CorrectedChannel now = records::corrected(corrections, channel);
+    const records::CorrectedChannel now = records::corrected(corrections, channel, "");
     plain[row.mode][channel] = right[static_cast<Eigen::Index>(r)];
     mended[row.mode][now.name] = now.factor * wrong[static_cast<Eigen::Index>(r)];
   }
@@ -81,8 +81,8 @@ TEST(CorrectionsOf, LeavesOutWhatIsNotDecidedAndWhatIsNoFaultOfSignGainOrName) {
 
 TEST(WriteCorrections, AddsToWhatWasGivenAndTakesBackWhatWasWrong) {
   const auto file = std::filesystem::temp_directory_path() / "twindeck_measurement_corrections.toml";
-  const records::Correction a{"a", records::Correction::Action::reverse, "", 1.0, {}},
-      b{"b", records::Correction::Action::scale, "", 0.5, {}};
+  const records::Correction a{"a", records::Correction::Action::reverse, "", 1.0, "", {}},
+      b{"b", records::Correction::Action::scale, "", 0.5, "", {}};
   std::filesystem::remove(file);
   diagnosis::write_corrections({a}, {}, file);
   EXPECT_FALSE(std::filesystem::exists(file));
