@@ -65,7 +65,7 @@ void score_at_base(const OneLaw& law, const LawSearch& search, LawAccount& accou
   for (Index k = 0; k < left.cols(); ++k) left.col(k) = search.system.residual - choices[static_cast<std::size_t>(k)].change;
   const OneLaw::Point at = law.at(account.evidence.tau);
   if (at.lower.size() == 0) return;
-  const VectorXd chi_squared = law.solved(at, law.whitened(left)).colwise().squaredNorm();
+  const VectorXd chi_squared = linalg::lower_solve(at.lower, left).colwise().squaredNorm();
   std::vector<int> kept;
   const Index best = first_of_equals(-chi_squared);
   for (Index k = 0; k < left.cols(); ++k)
@@ -230,13 +230,9 @@ void settle_rivals(const LawSetting& setting, LawSearch& search) {
 
 Fit fit_by_own_scales(const LawSetting& setting, const LawAccount& account, const std::vector<int>& aside) {
   const LawSystem& system = *account.system;
-  const Index rows = system.residual.size();
-  MatrixXd share = MatrixXd::Zero(rows, rows);
-  for (std::size_t c = 0; c < system.classes.size(); ++c) {
-    if (c == kGains) continue;  // the gains are already unknowns of the fit
-    const MatrixXd columns = account.evidence.tau[static_cast<Index>(c)] * system.classes[c];
-    if (columns.size() > 0) share += linalg::square(columns);
-  }
+  VectorXd tau = account.evidence.tau;
+  tau[kGains] = 0.0;  // the gains are already unknowns of the fit
+  MatrixXd share = covariance_at(system, tau) - system.sigma;
   for (const int row : aside) share(row, row) += kAside * kAside;
   const FeatureMap& plain = setting.plain.map();
   MatrixXd further = MatrixXd::Zero(plain.values().size(), plain.values().size());

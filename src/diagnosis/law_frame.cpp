@@ -1,6 +1,5 @@
 #include "diagnosis/law_frame.hpp"
 
-#include <Eigen/Cholesky>
 #include <cmath>
 #include <set>
 
@@ -17,7 +16,6 @@ using Eigen::VectorXd;
 
 constexpr double kNoneOfTheModels = 0.05;  // of measured modes: spurious, doubled, or of a part that the model lacks
 constexpr double kOpenFrequency = 0.5, kOpenDamping = 1.0;  // deviation of ln f and ln zeta of such a mode
-constexpr double kNoVariance = 1e-12;                       // of the largest pivot; smaller pivots are rounding
 constexpr double kWideScale = 10.0;     // [-] relative deviation of a shape's scale; wide enough to have no influence
 constexpr double kLargestColumn = 1e6;  // deviations of a row; with larger columns, 16 digits lose the unknowns' own variance
 
@@ -47,22 +45,8 @@ std::pair<VectorXd, double> open_modes(const FeatureMap& map, const Prediction& 
   return {variance, log_prior};
 }
 
-/// Columns of a covariance, as many as its rank.
-MatrixXd columns_of(const MatrixXd& covariance) {
-  std::vector<int> rows;  // rows with a variance
-  for (Index r = 0; r < covariance.rows(); ++r)
-    if (covariance(r, r) > 0.0) rows.push_back(static_cast<int>(r));
-  const Eigen::LDLT<MatrixXd> factor(covariance(rows, rows));
-  const VectorXd d = factor.vectorD();
-  std::vector<int> kept;
-  for (Index k = 0; k < d.size(); ++k)
-    if (d[k] > kNoVariance * d.maxCoeff()) kept.push_back(static_cast<int>(k));
-  const MatrixXd lower = factor.matrixL();
-  MatrixXd out = MatrixXd::Zero(covariance.rows(), std::ssize(kept));
-  out(rows, Eigen::all) =
-      factor.transpositionsP().transpose() * MatrixXd(lower(Eigen::all, kept) * d(kept).cwiseSqrt().asDiagonal());
-  return out;
-}
+/// Covariance of a class; empty without columns.
+MatrixXd class_of(const MatrixXd& columns) { return columns.cols() > 0 ? linalg::square(columns) : MatrixXd(); }
 
 /// Covariance along a contrast of changes with independent increments: a Wiener process that starts at zero contrast (n_rows ×
 /// n_rows). It allows smooth changes and changes of direction. The part common to all conditions belongs to the form error.
@@ -125,14 +109,18 @@ FitSystem law_system(const Inference& plain, const Fit& fit, const std::vector<C
     const auto position = static_cast<std::size_t>(gains[static_cast<std::size_t>(k)]);
     gain.col(k) = kUnitOfClasses / map.nuisances()[position].deviation * j.col(gains[static_cast<std::size_t>(k)]);
   }
-  const MatrixXd shape = kUnitOfClasses * form.shape(rows, Eigen::all);
-  out.classes = {kUnitOfClasses * form.frequency(rows, Eigen::all),
-                 shape.cols() > shape.rows() ? columns_of(linalg::square(shape)) : shape,
-                 kUnitOfClasses * form.kinks(rows, Eigen::all), std::move(gain)};
-  const MatrixXd all = linalg::square(beside({out.classes[kFrequencies], shape, out.classes[kKinks]}, std::ssize(rows)));
+  out.classes = {class_of(kUnitOfClasses * form.frequency(rows, Eigen::all)),
+                 class_of(kUnitOfClasses * form.shape(rows, Eigen::all)),
+                 class_of(kUnitOfClasses * form.kinks(rows, Eigen::all)), class_of(gain)};
   for (const Contrast& contrast : contrasts) {
-    const MatrixXd share = along(contrast, map.features(), rows);
-    out.classes.push_back(share.size() > 0 ? columns_of(all.cwiseProduct(share)) : MatrixXd(all.rows(), 0));
+    MatrixXd share = along(contrast, map.features(), rows);
+    if (share.size() > 0) {
+      MatrixXd all = MatrixXd::Zero(share.rows(), share.cols());
+      for (const int c : {kFrequencies, kShapes, kKinks})
+        if (out.classes[c].size() > 0) all += out.classes[c];
+      share.array() *= all.array();
+    }
+    out.classes.push_back(std::move(share));
   }
   VectorXd x = fit.map.x;
   x.tail(asked).setZero();
@@ -150,11 +138,14 @@ FitSystem law_system(const Inference& plain, const Fit& fit, const std::vector<C
 bool can_be_weighed(const LawSystem& system) {
   if (!system.sigma.allFinite() || !system.residual.allFinite()) return false;
   const VectorXd deviation = system.sigma.diagonal().cwiseSqrt();
-  const auto sound = [&](const MatrixXd& m) {
-    return m.size() == 0 ||
-           (m.allFinite() && (m.cwiseAbs().rowwise().maxCoeff().array() < kLargestColumn * deviation.array()).all());
+  const MatrixXd& s = system.signatures;
+  const bool sound = s.size() == 0 ||
+                     (s.allFinite() && (s.cwiseAbs().rowwise().maxCoeff().array() < kLargestColumn * deviation.array()).all());
+  const auto is_small = [&](const MatrixXd& covariance) {
+    return covariance.size() == 0 ||
+           (covariance.allFinite() && (covariance.diagonal().cwiseSqrt().array() < kLargestColumn * deviation.array()).all());
   };
-  return sound(system.signatures) && std::all_of(system.classes.begin(), system.classes.end(), sound);
+  return sound && std::ranges::all_of(system.classes, is_small);
 }
 
 }  // namespace twindeck::diagnosis

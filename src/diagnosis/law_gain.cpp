@@ -24,10 +24,7 @@ constexpr double kGuarded = 15.0;  // nats below the leader; accounts within it 
 
 /// Sigma^-1 at an account's scales. Linear magnitudes are unknowns with the variance of their range (`further`).
 std::shared_ptr<const Precision> precision_at(const LawSystem& system, const VectorXd& tau, const MatrixXd& further) {
-  MatrixXd sigma = system.sigma + linalg::square(further);
-  for (std::size_t c = 0; c < system.classes.size(); ++c)
-    if (const double t = tau[static_cast<Index>(c)]; t > 0.0) sigma += t * t * linalg::square(system.classes[c]);
-  const MatrixXd lower = linalg::cholesky_factor(std::move(sigma));
+  const MatrixXd lower = linalg::cholesky_factor(covariance_at(system, tau) + linalg::square(further));
   TWINDECK_ASSERT(lower.size() > 0);
   auto out = std::make_shared<Precision>();
   out->matrix = linalg::inverse_of_factored(lower);

@@ -140,10 +140,7 @@ struct BetterOpening {
 /// are compared with their prediction from all other rows.
 std::vector<BetterOpening> gains_of_opening(const LawSystem& system, const LawHypothesis& hypothesis, const LawEvidence& at,
                                             const std::vector<OpenMode>& modes) {
-  MatrixXd sigma = system.sigma;
-  for (std::size_t c = 0; c < system.classes.size(); ++c)
-    if (const double tau = at.tau[static_cast<Index>(c)]; tau > 0.0) sigma += tau * tau * linalg::square(system.classes[c]);
-  const MatrixXd lower = linalg::cholesky_factor(std::move(sigma));
+  const MatrixXd lower = linalg::cholesky_factor(covariance_at(system, at.tau));
   std::vector<BetterOpening> out;
   if (lower.size() == 0) return out;
   const MatrixXd precision = linalg::inverse_of_factored(lower);
@@ -188,8 +185,7 @@ Fit fit_with_open(const Inference& inference, const std::vector<int>& modes, con
 
 OpenedEvidence scored_with_openings(const Inference& plain, FitSystem& system, const LawHypothesis& hypothesis,
                                     const VectorXd& start) {
-  OpenedEvidence out;
-  if (const OneLaw law(system); law.sound()) out.evidence = law.scored(hypothesis, start);
+  OpenedEvidence out{OneLaw(system).scored(hypothesis, start), {}};
   std::vector<OpenMode> modes = modes_that_may_open(plain, system);
   bool more = out.evidence.weight.size() > 0;
   while (more) {
@@ -205,8 +201,7 @@ OpenedEvidence scored_with_openings(const Inference& plain, FitSystem& system, c
         changed.sigma(open.rows, open.rows) += opening.covariance - open.now.covariance;
         changed.log_prior += opening.log_prior - open.now.log_prior;
       }
-      LawEvidence evidence;
-      if (const OneLaw law(changed); law.sound()) evidence = law.scored(hypothesis, out.evidence.tau);
+      LawEvidence evidence = OneLaw(changed).scored(hypothesis, out.evidence.tau);
       more = evidence.weight.size() > 0 && evidence.log_evidence > out.evidence.log_evidence;
       if (!more) continue;
       static_cast<LawSystem&>(system) = std::move(changed);

@@ -9,6 +9,7 @@
 #include "core/parallel.hpp"
 #include "diagnosis/form_frame.hpp"
 #include "diagnosis/form_magnitudes.hpp"
+#include "linalg/dense.hpp"
 
 namespace twindeck::diagnosis {
 
@@ -53,12 +54,7 @@ double volume_of(const LawEvidence& evidence, double value) { return evidence.lo
 
 class Screen {
  public:
-  Screen(const LawSetting& setting, LawSearch& search, const OneLaw& law)
-      : setting_(setting),
-        search_(search),
-        law_(law),
-        residual_(law.whitened(search.system.residual)),
-        signatures_(law.whitened(search.system.signatures)) {}
+  Screen(const LawSetting& setting, LawSearch& search, const OneLaw& law) : setting_(setting), search_(search), law_(law) {}
 
   /// Finds the modes of "nothing" and of "something else".
   void weigh_nothing() {
@@ -89,8 +85,8 @@ class Screen {
     for (const ScreenPoint& point : points_) {
       const OneLaw::Point at = law_.at(point.tau);
       if (at.lower.size() == 0) continue;
-      const VectorXd residual = law_.solved(at, residual_);
-      const MatrixXd signatures = law_.solved(at, signatures_);
+      const VectorXd residual = linalg::lower_solve(at.lower, search_.system.residual);
+      const MatrixXd signatures = linalg::lower_solve(at.lower, search_.system.signatures);
       const VectorXd along = signatures.transpose() * residual, square = signatures.colwise().squaredNorm();
       parallel_for(search_.accounts.size(), [&](std::size_t i) {
         const LawEntry& entry = search_.entries[i];
@@ -151,7 +147,6 @@ class Screen {
   const LawSetting& setting_;
   LawSearch& search_;
   const OneLaw& law_;
-  MatrixXd residual_, signatures_;
   std::vector<ScreenPoint> points_;
 };
 

@@ -54,12 +54,13 @@ std::vector<LawAccount> sets_beside(const LawSetting& setting, const LawSearch& 
   collect_entries(setting, beside, candidates);
   const OneLaw law(beside.system);
   std::vector<LawAccount> out;
-  if (!can_be_weighed(beside.system) || !law.sound()) return out;
+  if (!can_be_weighed(beside.system)) return out;
   const auto known_as = [&](const LawEntry& entry) {
     return *std::find_if(among.begin(), among.end(), [&](const LawEntry* e) { return e->candidate == entry.candidate; });
   };
   for (LawEntry& entry : beside.entries) entry.log_prior = known_as(entry)->log_prior;
   screen_by_law(setting, beside, law);
+  if (beside.none.weight.size() == 0) return out;
   std::vector<const LawEntry*> leading;
   for (const LawAccount& found : beside.accounts) {
     const LawEntry* entry = known_as(beside.entries[static_cast<std::size_t>(found.members.front())]);
@@ -260,9 +261,11 @@ LawSearch search_by_law(const LawSetting& setting, const Fit& base) {
   for (const auto& candidate : setting.plain.candidates()) candidates.push_back(candidate.get());
   collect_entries(setting, out, candidates);
   const OneLaw law(out.system);
-  out.weighed = can_be_weighed(out.system) && law.sound();
+  out.weighed = can_be_weighed(out.system);
   if (!out.weighed) return out;
   screen_by_law(setting, out, law);
+  out.weighed = out.none.weight.size() > 0;
+  if (!out.weighed) return out;
   out.else_weight.assign(setting.contrasts.size(), -1e300);
   weigh_nothing(setting, out, base);
   if (out.accounts.empty() || out.accounts.front().log_weight < out.none.log_evidence + kFarBelow) return out;

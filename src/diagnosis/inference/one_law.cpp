@@ -46,6 +46,13 @@ double log_width(const MatrixXd& precision, const VectorXd& range) {
       0.0);
 }
 
+MatrixXd covariance_at(const LawSystem& system, const VectorXd& tau) {
+  MatrixXd out = system.sigma;
+  for (std::size_t c = 0; c < system.classes.size(); ++c)
+    if (const double t = tau[static_cast<Index>(c)]; t > 0.0 && system.classes[c].size() > 0) out += t * t * system.classes[c];
+  return out;
+}
+
 /// A hypothesis evaluated at given scales of its active classes.
 struct OneLaw::Look {
   VectorXd log_tau, tau;  // (n_active), (n_classes)
@@ -53,113 +60,87 @@ struct OneLaw::Look {
   double value = -1e300;  // ln (likelihood × prior)
   double chi_squared = 0.0;
   VectorXd shift, weight;
-  MatrixXd solved;  // L^-1 (r - s)
+  MatrixXd solved;   // L^-1 (r - s)
+  MatrixXd inverse;  // Sigma^-1
   VectorXd gradient;
   MatrixXd curvature;
 };
 
-OneLaw::OneLaw(const LawSystem& system) : whitener_(linalg::cholesky_factor(system.sigma)), log_prior_(system.log_prior) {
-  if (whitener_.size() == 0) return;
-  log_determinant_ = 2.0 * whitener_.diagonal().array().log().sum();
-  std::vector<MatrixXd> white;
-  for (const MatrixXd& columns : system.classes) white.push_back(linalg::lower_solve(whitener_, columns));
-  for (Index r = 0; r < whitener_.rows(); ++r)
-    if (std::any_of(white.begin(), white.end(), [&](const MatrixXd& columns) { return !columns.row(r).isZero(0.0); }))
-      rows_.push_back(static_cast<int>(r));
-  if (rows_.empty()) rows_.push_back(0);  // any row will do if there are no classes
-  for (const MatrixXd& columns : white) {
-    columns_.emplace_back(columns(rows_, Eigen::all));
-    products_.push_back(linalg::square(columns_.back()));
-  }
-}
-
-MatrixXd OneLaw::whitened(const MatrixXd& rows) const {
-  return rows.size() > 0 ? linalg::lower_solve(whitener_, rows) : MatrixXd(whitener_.rows(), 0);
-}
-
 OneLaw::Point OneLaw::at(const VectorXd& tau) const {
-  Point out;
-  out.tau = tau;
-  MatrixXd sigma = MatrixXd::Identity(std::ssize(rows_), std::ssize(rows_));
-  for (std::size_t c = 0; c < products_.size(); ++c)
-    if (const double t = tau[static_cast<Index>(c)]; t > 0.0) sigma += t * t * products_[c];
-  out.lower = linalg::cholesky_factor(std::move(sigma));
-  out.log_determinant =
-      out.lower.size() > 0 ? log_determinant_ + 2.0 * out.lower.diagonal().array().log().sum() : -1e300;  // refused
+  Point out{tau, linalg::cholesky_factor(covariance_at(system_, tau)), -1e300};
+  if (out.lower.size() > 0) out.log_determinant = 2.0 * out.lower.diagonal().array().log().sum();
   return out;
 }
 
-MatrixXd OneLaw::solved(const Point& point, MatrixXd white) const {
-  white(rows_, Eigen::all) = linalg::lower_solve(point.lower, white(rows_, Eigen::all));
-  return white;
-}
-
-OneLaw::Look OneLaw::look(const LawHypothesis& white, const VectorXd& log_tau) const {
+OneLaw::Look OneLaw::look(const LawHypothesis& hypothesis, const VectorXd& log_tau) const {
   Look out;
   out.log_tau = log_tau;
   out.tau = VectorXd::Zero(classes());
-  double prior = log_prior_;
-  for (std::size_t k = 0; k < white.active.size(); ++k) {
+  double prior = system_.log_prior;
+  for (std::size_t k = 0; k < hypothesis.active.size(); ++k) {
     const double t = log_tau[static_cast<Index>(k)];
-    out.tau[white.active[k].index] = std::exp(t);
-    prior += log_half_t(t, white.active[k].scale);
+    out.tau[hypothesis.active[k].index] = std::exp(t);
+    prior += log_half_t(t, hypothesis.active[k].scale);
   }
   out.point = at(out.tau);
   if (out.point.lower.size() == 0) return out;
-  out.solved = solved(out.point, white.left);
+  out.solved = linalg::lower_solve(out.point.lower, hypothesis.left);
   double width = 0.0;
-  if (white.slopes.cols() > 0) {
-    const MatrixXd slopes = solved(out.point, white.slopes);
+  if (hypothesis.slopes.cols() > 0) {
+    const MatrixXd slopes = linalg::lower_solve(out.point.lower, hypothesis.slopes);
     MatrixXd products = linalg::product(slopes, slopes, true);
-    width = log_width(products, white.high - white.low);
+    width = log_width(products, hypothesis.high - hypothesis.low);
     products.diagonal().array() += 1e-12 * (1.0 + products.diagonal().array().abs());
     out.shift = products.ldlt().solve(slopes.transpose() * out.solved.col(0));
-    out.shift = out.shift.cwiseMax(white.low).cwiseMin(white.high);
+    out.shift = out.shift.cwiseMax(hypothesis.low).cwiseMin(hypothesis.high);
     out.solved.col(0) -= slopes * out.shift;
   }
   const VectorXd chi_squared = out.solved.colwise().squaredNorm();
   out.chi_squared = chi_squared.minCoeff();
-  const double log_likelihood = log_of_sum(white.log_weight - 0.5 * chi_squared, out.weight);
+  const double log_likelihood = log_of_sum(hypothesis.log_weight - 0.5 * chi_squared, out.weight);
   out.value = log_likelihood - 0.5 * out.point.log_determinant + width + prior;
   return out;
 }
 
-void OneLaw::slope_of(const LawHypothesis& white, Look& look) const {
-  const auto count = static_cast<Index>(white.active.size());
-  const MatrixXd inverse = linalg::inverse_of_factored(look.point.lower);
-  const MatrixXd alpha = linalg::lower_solve(look.point.lower, look.solved(rows_, Eigen::all), true);
+void OneLaw::slope_of(const LawHypothesis& hypothesis, Look& look) const {
+  const auto count = static_cast<Index>(hypothesis.active.size());
+  look.inverse = linalg::inverse_of_factored(look.point.lower);
+  const MatrixXd alpha = linalg::lower_solve(look.point.lower, look.solved, true);
   look.gradient.resize(count);
-  std::vector<MatrixXd> along;  // L^-1 D_c D_c' alpha, each column times the square root of its weight
+  std::vector<MatrixXd> along;  // L^-1 P_c alpha, each column times the square root of its weight
   for (Index k = 0; k < count; ++k) {
-    const ActiveClass& active = white.active[static_cast<std::size_t>(k)];
-    const MatrixXd& square = products_[static_cast<std::size_t>(active.index)];
+    const ActiveClass& active = hypothesis.active[static_cast<std::size_t>(k)];
+    const MatrixXd& square = system_.classes[static_cast<std::size_t>(active.index)];
     const double tau = look.tau[active.index], q = tau * tau / (3.0 * active.scale * active.scale);
     MatrixXd moved = linalg::product(square, alpha);
     const VectorXd power = moved.cwiseProduct(alpha).colwise().sum();
-    look.gradient[k] = tau * tau * (power.dot(look.weight) - square.cwiseProduct(inverse).sum()) + 1.0 - 4.0 * q / (1.0 + q);
+    look.gradient[k] =
+        tau * tau * (power.dot(look.weight) - square.cwiseProduct(look.inverse).sum()) + 1.0 - 4.0 * q / (1.0 + q);
     moved *= look.weight.cwiseSqrt().asDiagonal();
     along.push_back(linalg::lower_solve(look.point.lower, std::move(moved)));
   }
-  look.curvature = with_prior(white, look, [&](std::size_t k, std::size_t l) { return along[k].cwiseProduct(along[l]).sum(); });
+  look.curvature =
+      with_prior(hypothesis, look, [&](std::size_t k, std::size_t l) { return along[k].cwiseProduct(along[l]).sum(); });
 }
 
-MatrixXd OneLaw::expected_curvature(const LawHypothesis& white, const Look& look) const {
-  std::vector<MatrixXd> squares;  // L^-1 D_c D_c' L^-T
-  for (const ActiveClass& active : white.active) {
-    squares.push_back(linalg::square(linalg::lower_solve(look.point.lower, columns_[static_cast<std::size_t>(active.index)])));
-  }
-  return with_prior(white, look, [&](std::size_t k, std::size_t l) { return squares[k].cwiseProduct(squares[l]).sum(); });
+MatrixXd OneLaw::expected_curvature(const LawHypothesis& hypothesis, const Look& look) const {
+  std::vector<MatrixXd> relative;  // Sigma^-1 P_c
+  for (const ActiveClass& active : hypothesis.active)
+    relative.push_back(linalg::product(look.inverse, system_.classes[static_cast<std::size_t>(active.index)]));
+  return with_prior(hypothesis, look, [&](std::size_t k, std::size_t l) {
+    return relative[k].cwiseProduct(relative[l].transpose()).sum();  // the trace of their product
+  });
 }
 
-MatrixXd OneLaw::with_prior(const LawHypothesis& white, const Look& look,
+MatrixXd OneLaw::with_prior(const LawHypothesis& hypothesis, const Look& look,
                             const std::function<double(std::size_t, std::size_t)>& information) {
-  const std::size_t count = white.active.size();
+  const std::size_t count = hypothesis.active.size();
   MatrixXd out(count, count);
   for (std::size_t k = 0; k < count; ++k) {
-    const ActiveClass& active = white.active[k];
+    const ActiveClass& active = hypothesis.active[k];
     const double tau = look.tau[active.index], q = tau * tau / (3.0 * active.scale * active.scale);
     for (std::size_t l = 0; l <= k; ++l) {
-      const double other = look.tau[white.active[l].index];
+      const double other = look.tau[hypothesis.active[l].index];
       const auto i = static_cast<Index>(k), j = static_cast<Index>(l);
       out(i, j) = out(j, i) = 2.0 * tau * tau * other * other * information(k, l);
     }
@@ -169,29 +150,23 @@ MatrixXd OneLaw::with_prior(const LawHypothesis& white, const Look& look,
 }
 
 double OneLaw::log_posterior(const LawHypothesis& hypothesis, const VectorXd& tau) const {
-  LawHypothesis white = hypothesis;
-  white.left = whitened(hypothesis.left);
-  white.slopes = whitened(hypothesis.slopes);
   VectorXd log_tau(std::ssize(hypothesis.active));
   for (Index k = 0; k < log_tau.size(); ++k) log_tau[k] = std::log(tau[hypothesis.active[static_cast<std::size_t>(k)].index]);
-  return look(white, log_tau).value;
+  return look(hypothesis, log_tau).value;
 }
 
 LawEvidence OneLaw::scored(const LawHypothesis& hypothesis, const VectorXd& start) const {
-  LawHypothesis white = hypothesis;
-  white.left = whitened(hypothesis.left);
-  white.slopes = whitened(hypothesis.slopes);
-  const auto count = static_cast<Index>(white.active.size());
+  const auto count = static_cast<Index>(hypothesis.active.size());
   VectorXd log_tau(count);
   for (Index k = 0; k < count; ++k) {
-    const ActiveClass& active = white.active[static_cast<std::size_t>(k)];
+    const ActiveClass& active = hypothesis.active[static_cast<std::size_t>(k)];
     log_tau[k] = std::log(start[active.index] > 0.0 ? start[active.index] : active.scale);
   }
-  Look now = look(white, log_tau);
+  Look now = look(hypothesis, log_tau);
   LawEvidence out;
   out.tau = out.deviation = VectorXd::Zero(classes());
   if (now.point.lower.size() == 0) return out;
-  slope_of(white, now);
+  slope_of(hypothesis, now);
   for (int i = 0; i < kIterations && !out.converged; ++i) {
     MatrixXd damped = now.curvature;
     damped.diagonal().array() += kRidge;
@@ -201,14 +176,14 @@ LawEvidence OneLaw::scored(const LawHypothesis& hypothesis, const VectorXd& star
     step = step.cwiseMax(-kLongestStep).cwiseMin(kLongestStep);
     bool moved = false;
     for (int halving = 0; halving < kHalvings && !moved; ++halving, step *= 0.5) {
-      Look next = look(white, now.log_tau + step);
+      Look next = look(hypothesis, now.log_tau + step);
       moved = next.value > now.value;
       if (moved) now = std::move(next);
     }
     if (!moved) break;
-    slope_of(white, now);
+    slope_of(hypothesis, now);
   }
-  const MatrixXd lower = linalg::cholesky_factor(expected_curvature(white, now));
+  const MatrixXd lower = linalg::cholesky_factor(expected_curvature(hypothesis, now));
   if (count > 0 && lower.size() == 0) return out;
   const double log_volume = 0.5 * static_cast<double>(count) * std::log(2.0 * std::numbers::pi) -
                             (count > 0 ? lower.diagonal().array().log().sum() : 0.0);
@@ -219,7 +194,8 @@ LawEvidence OneLaw::scored(const LawHypothesis& hypothesis, const VectorXd& star
   out.weight = now.weight;
   if (count > 0) {
     const MatrixXd inverse = linalg::lower_solve(lower, MatrixXd::Identity(count, count));
-    for (Index k = 0; k < count; ++k) out.deviation[white.active[static_cast<std::size_t>(k)].index] = inverse.col(k).norm();
+    for (Index k = 0; k < count; ++k)
+      out.deviation[hypothesis.active[static_cast<std::size_t>(k)].index] = inverse.col(k).norm();
   }
   return out;
 }

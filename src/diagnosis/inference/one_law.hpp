@@ -12,11 +12,14 @@ namespace twindeck::diagnosis {
 /// half-t prior of three degrees of freedom. A hypothesis states which classes are active.
 struct LawSystem {
   Eigen::MatrixXd sigma;                 ///< Sigma_0 (n_rows × n_rows)
-  std::vector<Eigen::MatrixXd> classes;  ///< D_c (n_rows × n_c each)
+  std::vector<Eigen::MatrixXd> classes;  ///< P_c = D_c D_c' (n_rows × n_rows each), or empty for a class without columns
   Eigen::VectorXd residual;              ///< r (n_rows)
   Eigen::MatrixXd signatures;            ///< (n_rows × n_signatures) change of the rows by each cause
   double log_prior = 0.0;                ///< ln prior of the modes that the system holds for none of the model's
 };
+
+/// Sigma(tau) (n_rows × n_rows). @param tau  (n_classes) 0 where a class is absent
+[[nodiscard]] Eigen::MatrixXd covariance_at(const LawSystem& system, const Eigen::VectorXd& tau);
 
 /// A class that is active under a hypothesis, and the scale of its half-t law.
 struct ActiveClass {
@@ -51,52 +54,46 @@ struct LawEvidence {
 /// @param precision  in the likelihood (k × k)
 [[nodiscard]] double log_width(const Eigen::MatrixXd& precision, const Eigen::VectorXd& range);
 
-/// Sigma(tau) of a system, whitened by Sigma_0. Each hypothesis' scales are found by scoring in ln tau: with
-/// alpha = Sigma^-1 e, q_c = tau_c² / (3 s_c²)
-///   gradient  tau_c² (|D_c' alpha|² - tr D_c' Sigma^-1 D_c) + 1 - 4 q_c / (1 + q_c),
-///   steps     H_cd = 2 tau_c² tau_d² alpha' D_c D_c' Sigma^-1 D_d D_d' alpha + delta_cd 8 q_c / (1 + q_c)²,
-///   volume    H_cd = 2 tau_c² tau_d² |D_c' Sigma^-1 D_d|² + delta_cd 8 q_c / (1 + q_c)² at the mode.
+/// The law of a system. Each hypothesis' scales are found by scoring in ln tau: with alpha = Sigma^-1 e,
+/// q_c = tau_c² / (3 s_c²)
+///   gradient  tau_c² (alpha' P_c alpha - tr Sigma^-1 P_c) + 1 - 4 q_c / (1 + q_c),
+///   steps     H_cd = 2 tau_c² tau_d² alpha' P_c Sigma^-1 P_d alpha + delta_cd 8 q_c / (1 + q_c)²,
+///   volume    H_cd = 2 tau_c² tau_d² tr Sigma^-1 P_c Sigma^-1 P_d + delta_cd 8 q_c / (1 + q_c)² at the mode.
 /// References: Harville (1977), J. Am. Stat. Assoc. 72, 320-338 (scoring of variance components); Gilmour, Thompson and Cullis
 /// (1995), Biometrics 51, 1440-1450 (steps by the average information).
 class OneLaw {
  public:
-  /// @throws nothing; `sound()` is false if Sigma_0 is not positive definite
-  explicit OneLaw(const LawSystem& system);
-  [[nodiscard]] bool sound() const { return whitener_.size() > 0; }
-  [[nodiscard]] Eigen::Index classes() const { return static_cast<Eigen::Index>(columns_.size()); }
-  [[nodiscard]] Eigen::MatrixXd whitened(const Eigen::MatrixXd& rows) const;
+  /// @param system  must outlive the law
+  explicit OneLaw(const LawSystem& system) : system_(system) {}
+  OneLaw(LawSystem&&) = delete;
+  [[nodiscard]] Eigen::Index classes() const { return static_cast<Eigen::Index>(system_.classes.size()); }
 
-  /// Sigma at given scales, over the whitened rows that some class changes; in the other rows it is the identity.
+  /// Sigma at given scales.
   struct Point {
     Eigen::VectorXd tau;
-    Eigen::MatrixXd lower;  ///< L, L L' = L_0^-1 Sigma L_0^-T
+    Eigen::MatrixXd lower;  ///< L, L L' = Sigma; empty if Sigma is not positive definite
     double log_determinant = 0.0;
   };
   [[nodiscard]] Point at(const Eigen::VectorXd& tau) const;
-  /// Whitens rows, already whitened by Sigma_0, by a point's Sigma.
-  [[nodiscard]] Eigen::MatrixXd solved(const Point& point, Eigen::MatrixXd white) const;
 
-  /// Finds the mode of the scales and the evidence there. @param start  (n_classes) scales; an active class with 0 starts at
-  /// its half-t scale
+  /// Finds the mode of the scales and the evidence there; no `weight` if Sigma is not positive definite. @param start
+  /// (n_classes) scales; an active class with 0 starts at its half-t scale
   [[nodiscard]] LawEvidence scored(const LawHypothesis& hypothesis, const Eigen::VectorXd& start) const;
   /// ln (likelihood × prior of ln tau) at given scales, summed over the magnitudes.
   [[nodiscard]] double log_posterior(const LawHypothesis& hypothesis, const Eigen::VectorXd& tau) const;
 
  private:
   struct Look;
-  [[nodiscard]] Look look(const LawHypothesis& white, const Eigen::VectorXd& log_tau) const;
+  [[nodiscard]] Look look(const LawHypothesis& hypothesis, const Eigen::VectorXd& log_tau) const;
   /// Gradient, and a curvature for steps: the average information, the mean of observed and expected information. It needs only
   /// products with vectors. The expected (Fisher) information of Laplace's approximation needs products of matrices.
-  void slope_of(const LawHypothesis& white, Look& look) const;
-  [[nodiscard]] Eigen::MatrixXd expected_curvature(const LawHypothesis& white, const Look& look) const;
+  void slope_of(const LawHypothesis& hypothesis, Look& look) const;
+  [[nodiscard]] Eigen::MatrixXd expected_curvature(const LawHypothesis& hypothesis, const Look& look) const;
   /// Curvature in ln tau: information of the rows on each pair of classes, plus the prior's curvature.
-  static Eigen::MatrixXd with_prior(const LawHypothesis& white, const Look& look,
+  static Eigen::MatrixXd with_prior(const LawHypothesis& hypothesis, const Look& look,
                                     const std::function<double(std::size_t, std::size_t)>& information);
 
-  Eigen::MatrixXd whitener_;  // L_0
-  double log_determinant_ = 0.0, log_prior_ = 0.0;
-  std::vector<int> rows_;                            // whitened rows that some class changes
-  std::vector<Eigen::MatrixXd> columns_, products_;  // L_0^-1 D_c in these rows, and times its transpose
+  const LawSystem& system_;
 };
 
 }  // namespace twindeck::diagnosis

@@ -36,16 +36,15 @@ struct LawRows {
     constexpr Index n = 60, columns = 25;
     const MatrixXd root = draw(n, n) * 0.02;
     system.sigma = root * root.transpose() + 0.04 * MatrixXd::Identity(n, n);
-    system.classes = {draw(n, columns) * 0.3, draw(n, columns) * 0.3};
+    const MatrixXd one = draw(n, columns) * 0.3, other = draw(n, columns) * 0.3;
+    system.classes = {one * one.transpose(), other * other.transpose()};
     cause = draw(n, 1);
     const MatrixXd lower = system.sigma.llt().matrixL();
-    system.residual = lower * draw(n, 1) + first * system.classes[0] * draw(columns, 1) +
-                      second * system.classes[1] * draw(columns, 1) + size * cause;
+    system.residual = lower * draw(n, 1) + first * one * draw(columns, 1) + second * other * draw(columns, 1) + size * cause;
   }
   [[nodiscard]] LawHypothesis none() const { return {system.residual, VectorXd::Zero(1), {}, {}, {}, {{0, 1.0}, {1, 1.0}}}; }
   [[nodiscard]] double dense(const VectorXd& left, double first, double second) const {
-    const MatrixXd sigma = system.sigma + first * first * system.classes[0] * system.classes[0].transpose() +
-                           second * second * system.classes[1] * system.classes[1].transpose();
+    const MatrixXd sigma = system.sigma + first * first * system.classes[0] + second * second * system.classes[1];
     return -0.5 * (left.dot(sigma.inverse() * left) + std::log(sigma.determinant()));
   }
 };
