@@ -108,11 +108,12 @@ def _unique(names: list) -> list:
 
 
 def _entry(setup: str, record: Record, names: list, condition: str, copy: str, missing: list) -> str:
-    if record.rate_Hz is None:
+    if record.rate_Hz is None and not record.responses:
         missing.append(f"campaign.toml: sampling_rate_Hz of {record.file.name}: the file does not tell it")
-    rate = f"sampling_rate_Hz = {record.rate_Hz:.12g}" if record.rate_Hz else "# sampling_rate_Hz = 100.0   # the file does not tell it: state it"
+    kind = "frf" if record.responses else "ambient"
+    rate = "# frequency response functions have no sampling rate" if record.responses else f"sampling_rate_Hz = {record.rate_Hz:.12g}" if record.rate_Hz else "# sampling_rate_Hz = 100.0   # the file does not tell it: state it"
     columns = f"columns = {json.dumps(list(record.columns), ensure_ascii=False)}\n" if record.named and list(record.columns) != names else ""
-    return (f'[[record]]\nsetup = "{setup}"\nkind = "ambient"\nfile = "records/{copy}"\n{rate}\n'
+    return (f'[[record]]\nsetup = "{setup}"\nkind = "{kind}"\nfile = "records/{copy}"\n{rate}\n'
             f'channels = {json.dumps(names)}\n{columns}condition = "{condition}"\n')
 
 

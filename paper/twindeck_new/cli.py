@@ -117,7 +117,7 @@ def _with_own_files(text: str, campaign: Path, place: Path, records: list) -> st
 
 def _told(name: str, targets: list, records: list, settings: Settings | None, read: list, missing: list) -> None:
     for record in records:
-        print(f"record   {record.file.name}: {len(record.columns)} channels, {record.samples} samples, " + (f"{record.rate_Hz:.6g} Hz" if record.rate_Hz else "rate unknown"))
+        print(f"record   {record.file.name}: {len(record.columns)} channels, {record.samples} samples, " + ("lines of frequency response functions" if record.responses else f"{record.rate_Hz:.6g} Hz" if record.rate_Hz else "rate unknown"))
     if settings is not None and settings.peaks_Hz:
         sampling = "step 3 chooses decimation and block length" if settings.by_step else f"decimation {settings.decimation}, block_rows {settings.block_rows}"
         print(f"band     {len(settings.peaks_Hz)} peaks from {settings.peaks_Hz[0]:.4g} to {settings.peaks_Hz[-1]:.4g} Hz: {sampling}, maximum_order {settings.maximum_order}")

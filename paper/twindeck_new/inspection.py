@@ -19,8 +19,9 @@ class Record:
     rate_Hz: float | None  # None where the file does not tell it
     columns: tuple  # names in the file
     units: tuple  # "?" where the file does not tell one
-    samples: int
+    samples: int  # lines of frequency response functions
     temperature_C: float | None = None  # mean of a column in degrees Celsius, which is no channel
+    responses: bool = False  # frequency response functions of a hammer test: no rate
 
     @property
     def named(self) -> bool:
@@ -45,4 +46,6 @@ def read(file: Path, lines: list) -> Record:
     rate = next((float(found[1]) for line in lines[:start] if (found := RATE.match(line))), None)
     warm = [r for r in rows if CELSIUS.fullmatch(r["unit"]) and not UNNAMED.match(r["name"])]
     rows = [r for r in rows if r not in warm] or rows
-    return Record(file, rate, tuple(r["name"] for r in rows), tuple(r["unit"] for r in rows), max(int(r["samples"]) for r in rows), next((mean for r in warm if math.isfinite(mean := float(r["mean"]))), None))
+    responses = any(line.startswith("functions ") for line in lines[:start])
+    temperature_C = next((mean for r in warm if math.isfinite(mean := float(r["mean"]))), None)
+    return Record(file, rate, tuple(r["name"] for r in rows), tuple(r["unit"] for r in rows), max(int(r["samples"]) for r in rows), temperature_C, responses)

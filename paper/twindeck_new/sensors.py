@@ -14,6 +14,7 @@ LENGTHS_M = {"m": 1.0, "cm": 1e-2, "mm": 1e-3}
 NAMES = {"channel": ("channel", "sensor", "name", "kanal", "id"), "direction": ("direction", "dir", "axis", "richtung"), "node": ("node", "knoten", "grid"), "setup": ("setup", "aufbau"), "dx": ("dx",), "dy": ("dy",), "dz": ("dz",),
          "point": ("point", "location"), "unit": ("unit", "einheit"), "gain": ("gain",), "reference": ("reference", "ref")}
 PACKAGES = {".xlsx": "openpyxl", ".ods": "odf"}
+NODE = re.compile(r"(\d+)([+-])([xyz])")  # node and direction, as step 3 names a point
 FIELDS = ("point", "node", "x_m", "y_m", "z_m", "dx", "dy", "dz", "unit", "gain", "reference")
 
 
@@ -97,6 +98,8 @@ def of_universal_file(file: Path, channels: tuple) -> Sensors | None:
         elif kind in ("58", "58b") and len(lines) > 5:
             found = re.match(r".{31}(.{10})(.{10})(.{4})", lines[5])
             functions.append((int(found[2]), int(found[3])) if found and found[2].strip() and found[3].strip() else None)
+    if all(points := [NODE.fullmatch(c) for c in channels]):  # the points of frequency response functions, each in several functions
+        functions = [(int(p[1]), ("xyz".index(p[3]) + 1) * (-1 if p[2] == "-" else 1)) for p in points]
     if not nodes or len(functions) != len(channels):
         return None
     rows = {}

@@ -13,6 +13,7 @@
 #include "identification/limits.hpp"
 #include "identification/mode_choices.hpp"
 #include "identification/one_mode.hpp"
+#include "identification/response_modes.hpp"
 #include "identification/sampling.hpp"
 
 namespace twindeck::identification {
@@ -182,16 +183,34 @@ std::string limit_band(SetupResult& setup) {
                      setup.conditioned.setup, setup.limits.highest_Hz, why);
 }
 
+/// Modes of one setup of frequency response functions, with the singular values beside them.
+void identify_hammer_test(SetupResult& setup, const IdentificationSettings& config) {
+  const Eigen::VectorXd& f = setup.conditioned.responses.frequency_Hz;
+  setup.singular = response_spectra(setup.conditioned.responses);
+  setup.limits.lowest_Hz = f[0];
+  setup.limits.highest_Hz = f[f.size() - 1];
+  setup.found = identify_responses(setup.conditioned, config);
+  take_choices(setup.found, config.choices, setup.conditioned, response_scale(setup.conditioned.responses));
+}
+
+/// Whether the modes come from responses to forces that were not measured.
+bool is_output_only(const Conditioned& conditioned) { return conditioned.excitation.empty() && !conditioned.has_responses(); }
+
 /// Reads the records of one setup and lowers the limits that they are too short for.
 SetupResult read_setup(const records::Campaign& campaign, const records::RecordGroup& group,
                        const IdentificationSettings& config, Reporter& reporter) {
   SetupResult setup;
-  setup.conditioned = condition_records(campaign, group, config);
+  const bool has_responses = group.records.front().kind == records::kFrfKind;
+  setup.conditioned = has_responses ? condition_responses(campaign, group, config) : condition_records(campaign, group, config);
   for (const std::string& note : setup.conditioned.notes) reporter.say(note);
   for (const std::string& warning : setup.conditioned.warnings) reporter.warn(warning);
   IdentificationSettings own = config;
   own.decimation = std::max(config.decimation, 1L);
   own.block_rows = setup.conditioned.block_rows;
+  if (has_responses) {
+    setup.limits = std::move(own);
+    return setup;
+  }
   auto [limits, note] = carried_by(setup.conditioned, own);
   setup.limits = std::move(limits);
   if (!note.empty()) reporter.warn(note);
@@ -246,6 +265,10 @@ void identify_condition(ConditionResult& result, const IdentificationSettings& c
     const std::string& name = setup.conditioned.setup;
     reporter.progress(fmt::format("identifying {} in condition {}", name, result.condition), static_cast<double>(done++),
                       static_cast<double>(result.setups.size()));
+    if (setup.conditioned.has_responses()) {
+      identify_hammer_test(setup, config);
+      continue;
+    }
     setup.spectra = average_spectra(setup.conditioned, setup.limits);
     setup.singular = singular_spectra(setup.conditioned, setup.limits);
     const std::string band = config.highest_Hz == 0.0 ? limit_band(setup) : "";
@@ -260,12 +283,13 @@ void identify_condition(ConditionResult& result, const IdentificationSettings& c
   for (SetupResult& setup : result.setups) found.push_back(&setup.found);
   if (config.selection == "automatic") drop_lines_of_others(found, config.periodic);
   for (SetupResult& setup : result.setups) {
+    if (setup.conditioned.has_responses()) continue;
     estimate_lags(setup.conditioned, setup.found);
     const std::string late = lag_warning(setup.conditioned, setup.found);
     if (!late.empty()) reporter.warn(late);
   }
   merge_setups(result);
-  if (result.setups.size() > 1 && result.setups.front().conditioned.excitation.empty() && is_one_rate(result)) {
+  if (result.setups.size() > 1 && is_output_only(result.setups.front().conditioned) && is_one_rate(result)) {
     const auto fewest = std::ranges::min_element(
         result.setups, [](const SetupResult& a, const SetupResult& b) { return a.limits.block_rows < b.limits.block_rows; });
     check_merging(result, common_references(result), fewest->limits);

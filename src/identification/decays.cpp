@@ -215,6 +215,7 @@ std::vector<AmbientAmplitude> ambient_amplitudes(const std::vector<ConditionResu
     for (std::size_t m = 0; m < result.modes.size(); ++m) {
       const MergedMode& mode = result.modes[m];
       const SetupResult& setup = result.setups[mode.members.front().first];
+      if (setup.conditioned.has_responses()) continue;  // the force of a hammer test is not kept
       const Cluster& own = setup.found.modes[mode.members.front().second];
       double squares = 0.0, seconds = 0.0;
       for (const Samples& record : setup.conditioned.records) {

@@ -50,7 +50,7 @@ void far_dampings(const ConditionResult& result, std::vector<std::string>& doubt
 
 bool is_explained(const SetupResult& setup, double f) {
   const auto near = [&](double other, double half_width) { return std::abs(other - f) <= std::max(kNearPeak * f, half_width); };
-  const double spacing = setup.singular.frequency_Hz[1];
+  const double spacing = setup.singular.frequency_Hz[1] - setup.singular.frequency_Hz[0];
   const auto mode = std::any_of(setup.found.modes.begin(), setup.found.modes.end(), [&](const Cluster& m) {
     return near(m.frequency_Hz, std::max(3.0 * spacing, 2.0 * m.damping_ratio * m.frequency_Hz));
   });

@@ -62,18 +62,6 @@ std::vector<Index> inputs_of(const records::Campaign& campaign, const records::C
   return columns;
 }
 
-void choose_references(Conditioned& conditioned, const std::vector<std::string>& asked) {
-  std::vector<std::string> names;
-  for (const records::CampaignChannel& channel : conditioned.channels) names.push_back(channel.name);
-  require_known(asked, names, "references");
-  const bool marked =
-      std::any_of(conditioned.channels.begin(), conditioned.channels.end(), [](const auto& c) { return c.reference; });
-  for (std::size_t c = 0; c < names.size(); ++c) {
-    const bool chosen = !asked.empty() ? listed(asked, names[c]) : !marked || conditioned.channels[c].reference;
-    if (chosen) conditioned.references.push_back(static_cast<Index>(c));
-  }
-}
-
 void refuse_clipped(const ChannelQuality& q, double largest, const std::string& without) {
   const double share = static_cast<double>(q.clipped) / static_cast<double>(q.samples);
   if (share <= largest) return;
@@ -200,6 +188,18 @@ Conditioned condition_with(const records::Campaign& campaign, const records::Rec
 }
 
 }  // namespace
+
+void choose_references(Conditioned& conditioned, const std::vector<std::string>& asked) {
+  std::vector<std::string> names;
+  for (const records::CampaignChannel& channel : conditioned.channels) names.push_back(channel.name);
+  require_known(asked, names, "references");
+  const bool marked =
+      std::any_of(conditioned.channels.begin(), conditioned.channels.end(), [](const auto& c) { return c.reference; });
+  for (std::size_t c = 0; c < names.size(); ++c) {
+    const bool chosen = !asked.empty() ? listed(asked, names[c]) : !marked || conditioned.channels[c].reference;
+    if (chosen) conditioned.references.push_back(static_cast<Index>(c));
+  }
+}
 
 Conditioned condition_records(const records::Campaign& campaign, const records::RecordGroup& group,
                               const IdentificationSettings& config) {

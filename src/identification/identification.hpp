@@ -9,6 +9,7 @@
 #include "identification/identify.hpp"
 #include "identification/quality.hpp"
 #include "records/campaign.hpp"
+#include "records/frequency_responses.hpp"
 #include "signal/welch.hpp"
 
 /// Records of a campaign to modes with standard deviations: judged, made ready, identified setup by setup, merged; free decays
@@ -33,10 +34,17 @@ struct ConditionedInfo {
 
 /// Records of one setup and condition, prepared for identification.
 struct Conditioned : ConditionedInfo {
-  std::vector<Samples> records;       ///< detrended, decimated, SI units
-  std::vector<Samples> excitation;    ///< of the inputs, one a record
+  std::vector<Samples> records;     ///< detrended, decimated, SI units
+  std::vector<Samples> excitation;  ///< of the inputs, one a record
+  /// Of a hammer test, which has no records (response_modes.hpp); without lines for any other setup.
+  records::FrequencyResponses responses;
   std::vector<std::string> warnings;  ///< channels that are left out, and why
+  [[nodiscard]] bool has_responses() const { return responses.frequency_Hz.size() > 0; }
 };
+
+/// Sets the references: those asked for, else those marked in channels.csv, else all.
+/// @throws InputError  for a name that is no channel
+void choose_references(Conditioned& conditioned, const std::vector<std::string>& asked);
 
 /// Reads the records, judges the channels, fills gaps if asked, detrends and decimates. The factor of decimation is chosen if
 /// the configuration has 0. A record that cannot be used is left out with a note, as long as another of the group is left. A

@@ -18,6 +18,7 @@
 #include "records/column_match.hpp"
 #include "records/record.hpp"
 #include "records/recorded_unit.hpp"
+#include "records/scan_universal.hpp"
 #include "records/take_clock.hpp"
 
 namespace twindeck::records {
@@ -27,7 +28,7 @@ using Eigen::Index;
 namespace {
 
 constexpr double kNoLimit = std::numeric_limits<double>::infinity();
-const std::vector<std::string> kKinds = {"ambient", "free_decay", "wind", "earthquake", "stay"};
+const std::vector<std::string> kKinds = {"ambient", "free_decay", "wind", "earthquake", "stay", kFrfKind};
 
 std::vector<std::string> condition_names(const fs::path& file) {
   if (!fs::exists(file)) return {};
@@ -60,6 +61,34 @@ std::vector<RecordLines> record_lines(const fs::path& file) {
     }
   }
   return lines;
+}
+
+/// Frequency response functions are told from the file, and are records of their own kind; all others need a rate.
+void settle_kind(CampaignRecord& record, const fs::path& file) {
+  const auto at = [&](const std::string& key) { return Place{file.string(), record.line_of(key), key}; };
+  const bool is_stated = record.lines.contains("kind"), holds = holds_frequency_responses(record.file);
+  if (holds && is_stated && record.kind != kFrfKind)
+    throw InputError(at("kind"),
+                     fmt::format("is \"{}\", but {} holds frequency response functions", record.kind, record.file.string()),
+                     "write kind = \"frf\", or give the file with the time series");
+  if (holds) record.kind = kFrfKind;
+  if (record.kind != kFrfKind && record.sampling_rate_Hz <= 0.0)
+    throw InputError({file.string(), record.line, "sampling_rate_Hz"},
+                     "is missing, expected the samples a second of each channel",
+                     "write it into this [[record]]; only frequency response functions have none");
+}
+
+/// Refuses frequency response functions beside time series in one setup: their modes cannot be one result.
+void refuse_mixed_setup(const std::vector<CampaignRecord>& records, const CampaignRecord& record, const fs::path& file) {
+  for (const CampaignRecord& other : records) {
+    if (other.setup != record.setup || other.condition != record.condition) continue;
+    if ((other.kind == kFrfKind) == (record.kind == kFrfKind)) continue;
+    throw InputError({file.string(), record.line_of("setup"), "setup"},
+                     fmt::format("{} holds {}, but the record on line {}, of the same setup and condition, holds {}",
+                                 record.setup, record.kind == kFrfKind ? "frequency response functions" : "time series",
+                                 other.line, other.kind == kFrfKind ? "frequency response functions" : "time series"),
+                     "give each kind a setup of its own");
+  }
 }
 
 void check_record(const Campaign& campaign, const CampaignRecord& record, const fs::path& file) {
@@ -136,30 +165,6 @@ std::vector<std::string> notes_of(const CampaignRecord& record, const RecordInfo
   return notes;
 }
 
-/// The gain of a channel. A unit in the file that contradicts channels.csv is refused, unless unit_from says which is right.
-/// @param notes  gets a line where the two contradict each other
-double gain_of(const Campaign& campaign, const CampaignRecord& record, std::size_t c, const std::string& unit,
-               std::vector<std::string>& notes) {
-  const CampaignChannel& channel = campaign.channel(record.channels[c]);
-  const auto known = recorded_unit(unit);
-  if (!known || known->si_factor <= 0.0) return channel.gain;
-  constexpr double other_unit = 2.0;  // units of one quantity differ by a factor of 9.8 or more, a calibration by less than 2
-  const double stated = known->si_factor, used = std::abs(channel.gain);
-  const bool other_quantity = known->quantity != channel.quantity;
-  if (!other_quantity && used <= other_unit * stated && used >= stated / other_unit) return channel.gain;
-  const std::string says =
-      fmt::format("says that {} is in {}, but channels.csv has the quantity {}, the unit {} and the gain {:.6g}", channel.name,
-                  unit, channel.quantity, channel.unit, channel.gain);
-  if (record.unit_from.empty() || (other_quantity && record.unit_from == "file"))
-    throw InputError({record.file.string(), 0, channel.name}, says,
-                     "correct the one that is wrong, or say that channels.csv is right: unit_from = \"channels.csv\" in its "
-                     "[[record]] of campaign.toml (unit_from = \"file\" takes the file's unit)");
-  notes.push_back(fmt::format("{}: {}; {} is taken, as unit_from says", record.file.string(), says, record.unit_from));
-  if (record.unit_from == "channels.csv") return channel.gain;
-  const double own = si_factor(channel.unit);
-  return stated * (own > 0.0 ? channel.gain / own : channel.gain < 0.0 ? -1.0 : 1.0);
-}
-
 /// Refuses the same samples of the same channels in two records of a kind: they would count as two measurements.
 void refuse_twice(const std::vector<CampaignRecord>& records, const CampaignRecord& record, const fs::path& file) {
   for (const CampaignRecord& other : records) {
@@ -212,7 +217,7 @@ io::FieldTable record_fields(ListedRecord& r) {
       .text("file", r.file,
             "samples: CSV as loggers write it, NPY, MAT 4, 5 or 7.3, HDF5, universal file; relative to campaign.toml", true)
       .number("sampling_rate_Hz", r.record.sampling_rate_Hz, "Hz", {io::lowest_rate_Hz, kNoLimit},
-              "samples a second of each channel", true)
+              "samples a second of each channel; required but for frequency response functions")
       .texts("channels", r.record.channels,
              "what is recorded, names of channels.csv; the columns' order where the file has no names")
       .texts("columns", r.record.columns,
@@ -238,6 +243,28 @@ const CampaignChannel& Campaign::channel(const std::string& name) const {
   return *at;
 }
 
+double gain_of(const Campaign& campaign, const CampaignRecord& record, std::size_t c, const std::string& unit,
+               std::vector<std::string>& notes) {
+  const CampaignChannel& channel = campaign.channel(record.channels[c]);
+  const auto known = recorded_unit(unit);
+  if (!known || known->si_factor <= 0.0) return channel.gain;
+  constexpr double other_unit = 2.0;  // units of one quantity differ by a factor of 9.8 or more, a calibration by less than 2
+  const double stated = known->si_factor, used = std::abs(channel.gain);
+  const bool other_quantity = known->quantity != channel.quantity;
+  if (!other_quantity && used <= other_unit * stated && used >= stated / other_unit) return channel.gain;
+  const std::string says =
+      fmt::format("says that {} is in {}, but channels.csv has the quantity {}, the unit {} and the gain {:.6g}", channel.name,
+                  unit, channel.quantity, channel.unit, channel.gain);
+  if (record.unit_from.empty() || (other_quantity && record.unit_from == "file"))
+    throw InputError({record.file.string(), 0, channel.name}, says,
+                     "correct the one that is wrong, or say that channels.csv is right: unit_from = \"channels.csv\" in its "
+                     "[[record]] of campaign.toml (unit_from = \"file\" takes the file's unit)");
+  notes.push_back(fmt::format("{}: {}; {} is taken, as unit_from says", record.file.string(), says, record.unit_from));
+  if (record.unit_from == "channels.csv") return channel.gain;
+  const double own = si_factor(channel.unit);
+  return stated * (own > 0.0 ? channel.gain / own : channel.gain < 0.0 ? -1.0 : 1.0);
+}
+
 Campaign read_campaign(const fs::path& folder) {
   Campaign campaign;
   campaign.folder = folder;
@@ -261,7 +288,9 @@ Campaign read_campaign(const fs::path& folder) {
       record.line = lines[i].table;
       record.lines = lines[i].keys;
     }
+    settle_kind(record, file);
     check_record(campaign, record, file);
+    refuse_mixed_setup(campaign.records, record, file);
     refuse_twice(campaign.records, record, file);
     campaign.records.push_back(record);
   }
@@ -284,7 +313,8 @@ std::vector<RecordGroup> record_groups(const Campaign& campaign, const RecordCho
     if (group == groups.end()) group = groups.insert(groups.end(), {record.setup, record.condition, {}});
     if (!group->records.empty()) {
       const CampaignRecord& first = group->records.front();
-      if (record.sampling_rate_Hz != first.sampling_rate_Hz || record.channels != first.channels)
+      const bool differs = record.sampling_rate_Hz != first.sampling_rate_Hz || record.channels != first.channels;
+      if (differs && record.kind != kFrfKind)
         throw InputError(
             {(campaign.folder / "campaign.toml").string(), record.line, "record"},
             fmt::format("differs in rate or channels from the record on line {} of the same setup and condition", first.line),

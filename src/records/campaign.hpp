@@ -10,11 +10,14 @@
 
 namespace twindeck::records {
 
+/// The kind of a record of frequency response functions (frequency_responses.hpp).
+inline constexpr const char* kFrfKind = "frf";
+
 /// An entry [[record]] of campaign.toml.
 struct CampaignRecord {
   std::string setup, kind, condition;
-  std::filesystem::path file;  ///< with the campaign's folder before it
-  double sampling_rate_Hz = 0.0;
+  std::filesystem::path file;         ///< with the campaign's folder before it
+  double sampling_rate_Hz = 0.0;      ///< 0 for frequency response functions
   std::vector<std::string> channels;  ///< names of channels.csv
   std::vector<std::string> columns;   ///< names of these channels in the file; empty if it uses the same names
   bool skip_stray_lines = false;      ///< leave out and count lines of a text file that are no rows, instead of refusing them
@@ -33,7 +36,8 @@ struct Campaign {
   [[nodiscard]] const CampaignChannel& channel(const std::string& name) const;
 };
 
-/// Reads campaign.toml, channels.csv and the names in conditions.toml; no record yet.
+/// Reads campaign.toml, channels.csv and the names in conditions.toml; of the records only whether a universal file begins with
+/// a frequency response function, which makes the record one of kind "frf".
 /// @throws InputError  with file, line, key: an unknown key, kind, channel or condition; a record without rate or channels
 [[nodiscard]] Campaign read_campaign(const std::filesystem::path& folder);
 
@@ -49,9 +53,15 @@ struct RecordGroup {
 };
 /// The records that match the choice, by condition and setup in the order of campaign.toml.
 /// @param or_none  true: returns an empty list if no record matches; false: refuses and names the possible choices
-/// @throws InputError  also if records of one setup and condition differ in rate or channels
+/// @throws InputError  also if records of time series of one setup and condition differ in rate or channels
 [[nodiscard]] std::vector<RecordGroup> record_groups(const Campaign& campaign, const RecordChoice& choice,
                                                      bool or_none = false);
+
+/// The gain of a record's channel number `c`. A unit in the file that contradicts channels.csv is refused, unless unit_from
+/// says which is right. @param unit  as the file has it @param notes  gets a line where the two contradict each other
+/// @throws InputError  with the file and the channel
+[[nodiscard]] double gain_of(const Campaign& campaign, const CampaignRecord& record, std::size_t c, const std::string& unit,
+                             std::vector<std::string>& notes);
 
 /// The groups of each condition together. @param groups  from record_groups
 [[nodiscard]] std::vector<std::vector<RecordGroup>> by_condition(const std::vector<RecordGroup>& groups);

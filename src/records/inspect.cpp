@@ -91,6 +91,10 @@ Inspection inspect(const fs::path& file) {
     s.longest_gap = std::max(s.longest_gap, longest);
   }
   result.channels.resize(result.info.channels.size());
+  for (const ChannelInfo& point : result.info.response_points) {
+    result.info.channels.push_back(point);
+    result.channels.emplace_back().samples = point.samples;
+  }
   return result;
 }
 
@@ -145,11 +149,14 @@ std::vector<std::string> describe(const Inspection& inspection) {
   Index samples = 0;
   for (const ChannelSummary& channel : inspection.channels) samples = std::max(samples, channel.samples);
   lines.push_back(
-      fmt::format("channels  {}, {} samples{}", info.channels.size(), samples,
+      fmt::format("channels  {}, {} {}{}", info.channels.size(), samples, info.response_points.empty() ? "samples" : "lines",
                   info.rate_Hz > 0.0 ? fmt::format(", {:.6g} s", static_cast<double>(samples) / info.rate_Hz) : ""));
-  lines.push_back(info.rate_Hz > 0.0 ? fmt::format("rate      {:.9g} Hz{}, from the {}", info.rate_Hz, deviation_of(info),
-                                                   printable(info.rate_source))
-                                     : "rate      unknown");
+  const bool has_rate = info.response_points.empty();  // frequency response functions have none
+  if (!has_rate) lines.push_back(printable("functions " + info.functions));
+  if (has_rate)
+    lines.push_back(info.rate_Hz > 0.0 ? fmt::format("rate      {:.9g} Hz{}, from the {}", info.rate_Hz, deviation_of(info),
+                                                     printable(info.rate_source))
+                                       : "rate      unknown");
   if (info.clock.rate_Hz > 0.0) lines.push_back("stamps    " + stamps_of(info));
   lines.push_back(fmt::format("{:<24} {:<12} {:>10} {:>9} {:>9} {:>8} {:>12} {:>12}", "channel", "unit", "samples", "missing",
                               "longest", "clipped", "mean", "rms"));
@@ -161,7 +168,7 @@ std::vector<std::string> describe(const Inspection& inspection) {
     const bool known = si_factor(channel.unit) > 0.0;
     std::string remark = s.dead ? "  constant" : "";
     if (channel.unit.empty()) {
-      remark += s.dead ? "" : "  unit not given: " + guess(s);
+      remark += s.dead ? "" : !has_rate ? "  unit not given" : "  unit not given: " + guess(s);
       unknown_unit = true;
     } else if (!known) {
       remark += "  no unit of motion";
@@ -174,7 +181,7 @@ std::vector<std::string> describe(const Inspection& inspection) {
                                 s.longest_gap, s.clipped, s.mean, s.rms, remark));
   }
   for (const std::string& note : info.notes) lines.push_back("note      " + printable(note, kLongestNote));
-  if (info.rate_Hz == 0.0) missing.push_back("the sampling rate (campaign.toml: sampling_rate_Hz)");
+  if (has_rate && info.rate_Hz == 0.0) missing.push_back("the sampling rate (campaign.toml: sampling_rate_Hz)");
   if (unknown_unit) missing.push_back("units (channels.csv: unit and gain to SI)");
   missing.push_back("positions and directions of the sensors (channels.csv)");
   lines.push_back("missing   " + fmt::format("{}", fmt::join(missing, "; ")));

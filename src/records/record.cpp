@@ -86,6 +86,8 @@ void refuse_containers(const fs::path& file, std::string_view text) {
 
 }  // namespace
 
+bool is_universal_file(const fs::path& file) { return is_universal(beginning(file)); }
+
 RecordInfo scan_npy(const fs::path& file, const Visitor& visit) {
   const auto [rows, columns] = io::shape_of_npy(file);
   const bool along_rows = columns > rows;

@@ -40,12 +40,18 @@ struct RecordInfo {
   bool clock_unit_known = true;                      ///< false if the unit of the stamps was guessed
   std::vector<std::pair<Eigen::Index, long>> lines;  ///< text files: row and line, where their difference changes
   std::vector<std::string> notes;                    ///< oddities, how they were read, and missing data
+  std::vector<ChannelInfo>
+      response_points;          ///< of a universal file with frequency response functions: see frequency_responses.hpp
+  std::string functions;        ///< what they are, for people; empty for none
   bool names_channels = false;  ///< the file names its channels itself; otherwise they are called "column 3"
   bool has_header = true;       ///< the format has a place for names, so that missing names are reported
   std::vector<std::string>
       unaligned_header;     ///< cells of a header line of a text file whose number differs from that of the rows
   long unaligned_line = 0;  ///< that line
 };
+
+/// Whether a file begins as universal files do, with a line -1. @throws InputError  for a pipe, or a file that cannot be read
+[[nodiscard]] bool is_universal_file(const std::filesystem::path& file);
 
 /// How a file is to be read.
 struct ReadOptions {

@@ -14,6 +14,7 @@
 
 #include "core/lists.hpp"
 #include "io/letters.hpp"
+#include "records/frequency_responses.hpp"
 #include "records/take_clock.hpp"
 #include "records/text_cells.hpp"
 #include "records/universal_lines.hpp"
@@ -61,6 +62,10 @@ struct Series {
   StampedRows stamps;   ///< of an uneven abscissa
   std::size_t bytes = 0;
   ChannelInfo channel;
+  bool keeps = false;               ///< values are kept below, not only visited
+  double start = 0.0;               ///< of an even abscissa
+  std::vector<double> at, numbers;  ///< the uneven abscissa; real and imaginary parts in turn
+  UniversalFunction as_function;    ///< header of a set that is no time series
   [[nodiscard]] bool is_complex() const { return data_type == 5 || data_type == 6; }
   [[nodiscard]] bool is_double() const { return data_type == 4 || data_type == 6; }
   [[nodiscard]] bool is_time() const { return (function == 1 || function == 0) && abscissa != 18; }
@@ -80,6 +85,22 @@ std::vector<double> form_of(const std::string& line) {
   return numbers;
 }
 
+/// A label and a direction of record 6. Node 0 without a direction is none.
+std::string point_of(const std::string& node, const std::string& direction) {
+  return (node.empty() || node == "0") && direction.empty() ? "" : node + direction;
+}
+
+/// Records 9 to 11: type and unit of the ordinate, its denominator, the third axis.
+void read_ordinate_axes(UniversalLines& in, const std::string& what, Series& series) {
+  const std::string numerator = need_inside(in, what), denominator = need_inside(in, what);
+  need_inside(in, what);
+  series.channel.unit = field(numerator, 47, 20);
+  if (series.channel.unit == "NONE") series.channel.unit.clear();
+  series.as_function.unit = series.channel.unit;
+  series.as_function.quantity = static_cast<int>(integer_or(field(numerator, 0, 10), 0));
+  series.as_function.over = static_cast<int>(integer_or(field(denominator, 0, 10), 0));
+}
+
 Series read_series_header(UniversalLines& in, const std::string& set_line, const std::string& what) {
   Series series;
   series.binary = field(set_line, 6, 1) == "b" || set_line.find('b') != std::string::npos;
@@ -96,6 +117,9 @@ Series read_series_header(UniversalLines& in, const std::string& set_line, const
   series.channel.direction = direction_name(integer_or(field(identity, 51, 4), 0));
   if (entity != "NONE" && !entity.empty()) names.insert(names.end(), {entity + series.channel.direction, entity});
   names.push_back(series.channel.point + series.channel.direction);
+  series.as_function.line = in.number();
+  series.as_function.response = point_of(series.channel.point, series.channel.direction);
+  series.as_function.reference = point_of(field(identity, 66, 10), direction_name(integer_or(field(identity, 76, 4), 0)));
   const std::string form = need_inside(in, what);
   const auto numbers = form_of(form);
   if (numbers.size() < 5)
@@ -110,6 +134,7 @@ Series read_series_header(UniversalLines& in, const std::string& set_line, const
         "write the set again");
   series.values = *values;
   series.even = numbers[2] != 0.0;
+  series.start = numbers[3];
   series.step = numbers[4];
   if (series.data_type != 2 && series.data_type != 4 && !series.is_complex())
     in.fail(fmt::format("has data of type {}, expected 2, 4 (real), 5 or 6 (complex)", series.data_type),
@@ -117,10 +142,8 @@ Series read_series_header(UniversalLines& in, const std::string& set_line, const
   const std::string axis = need_inside(in, what);
   series.abscissa = static_cast<int>(integer_or(field(axis, 0, 10), 17));
   series.unit_s = time_unit_s(field(axis, 47, 20));
-  series.channel.unit = field(need_inside(in, what), 47, 20);
-  if (series.channel.unit == "NONE") series.channel.unit.clear();
-  need_inside(in, what);
-  need_inside(in, what);
+  series.as_function.abscissa_unit = field(axis, 47, 20);
+  read_ordinate_axes(in, what, series);
   series.channel.samples = series.values;
   if (series.even && series.step > 0.0) {
     const double unit_s = series.unit_s > 0.0 ? series.unit_s : StampedRows::likely_unit_s(series.step);
@@ -187,8 +210,10 @@ void read_text_values(UniversalLines& in, Series& series, const std::string& wha
     for (const double value : series_numbers(in, line)) {
       if (k >= wanted) break;
       const Index within = k % each;
-      if (!series.even && within == 0) series.stamps.add(value);
+      const bool is_stamp = !series.even && within == 0;
+      if (is_stamp) series.stamps.add(value);
       if (within == (series.even ? 0 : 1)) parts.add(value);
+      if (series.keeps) (is_stamp ? series.at : series.numbers).push_back(value);
       ++k;
     }
   }
@@ -224,16 +249,43 @@ void read_binary_values(UniversalLines& in, Series& series, const std::string& w
       const char* at = data.data() + static_cast<std::size_t>(k) * sample;
       if (!series.even) series.stamps.add(binary_value(at, wide, series.swapped));
       parts.add(binary_value(at + abscissa, series.is_double(), series.swapped));
+      if (!series.keeps) continue;
+      if (!series.even) series.at.push_back(binary_value(at, wide, series.swapped));
+      for (std::size_t part = abscissa; part < sample; part += size)
+        series.numbers.push_back(binary_value(at + part, series.is_double(), series.swapped));
     }
     done += complete;
     if (complete < n) in.fail(fmt::format("breaks off in {} after {} of {} values", what, done, series.values), kCopyAgain);
   }
 }
 
-void read_series(UniversalLines& in, const std::string& set_line, const Visitor& visit, RecordInfo& info, int& others) {
-  const std::string what = fmt::format("set 58 number {}", info.channels.size() + static_cast<std::size_t>(others) + 1);
+/// A set that is no time series, with its values if they were kept.
+UniversalFunction function_of(const Series& series) {
+  UniversalFunction function = series.as_function;
+  function.function = series.function;
+  function.number = static_cast<int>(series.channel.position);
+  function.other_names = series.channel.other_names;
+  function.abscissa = series.abscissa;
+  function.complex = series.is_complex();
+  function.lines = series.values;
+  if (series.even)
+    function.at = Eigen::VectorXd::LinSpaced(series.keeps ? series.values : 2, series.start,
+                                             series.start + series.step * static_cast<double>(series.values - 1));
+  else
+    function.at = Eigen::Map<const Eigen::VectorXd>(series.at.data(), std::ssize(series.at));
+  const std::size_t each = series.is_complex() ? 2 : 1;
+  for (std::size_t k = 0; k + each <= series.numbers.size(); k += each)
+    function.ordinate.emplace_back(series.numbers[k], each == 2 ? series.numbers[k + 1] : 0.0);
+  return function;
+}
+
+void read_series(UniversalLines& in, const std::string& set_line, const Visitor& visit, RecordInfo& info, UniversalData& data,
+                 bool keep_functions) {
+  const auto number = info.channels.size() + data.functions.size() + 1;
+  const std::string what = fmt::format("set 58 number {}", number);
   Series series = read_series_header(in, set_line, what);
-  series.channel.position = std::ssize(info.channels) + others + 1;
+  series.channel.position = static_cast<Index>(number);
+  series.keeps = keep_functions && !series.is_time();
   Parts parts(visit, series.is_time() ? std::ssize(info.channels) : -1);
   if (series.binary)
     read_binary_values(in, series, what, parts, info);
@@ -248,7 +300,7 @@ void read_series(UniversalLines& in, const std::string& set_line, const Visitor&
   if (series.is_time())
     info.channels.push_back(series.channel);
   else
-    ++others;
+    data.functions.push_back(function_of(series));
   expect_end(in, info, series.binary ? "58b" : "58");
 }
 
@@ -262,11 +314,11 @@ bool begins_known_set(const std::string& line) {
 }
 
 void read_set(UniversalLines& in, const std::string& set_line, const Visitor& visit, RecordInfo& info, UniversalData& data,
-              int& other_series) {
+              bool keep_functions) {
   if (const long set = set_number(set_line); set <= 0) {
     in.fail(fmt::format("holds '{}' after -1, expected the number of a set", field(set_line, 0, 40)), "write the file again");
   } else if (set == 58) {
-    read_series(in, set_line, visit, info, other_series);
+    read_series(in, set_line, visit, info, data, keep_functions);
   } else if (set == 151) {
     data.title = field(need_inside(in, "set 151"), 0, 80);
     data.has_header = true;
@@ -305,10 +357,9 @@ void name_by_difference(std::vector<ChannelInfo>& channels) {
 
 }  // namespace
 
-UniversalData scan_universal_sets(const fs::path& file, const Visitor& visit, RecordInfo& info) {
+UniversalData scan_universal_sets(const fs::path& file, const Visitor& visit, RecordInfo& info, bool keep_functions) {
   UniversalLines in(file);
   UniversalData data;
-  int other_series = 0;
   for (std::string line; in.next(line);) {
     if (is_blank(line)) {
       if (in.is_last_without_end() && line.ends_with(' '))
@@ -321,7 +372,7 @@ UniversalData scan_universal_sets(const fs::path& file, const Visitor& visit, Re
         in.fail(fmt::format("holds '{}' between two sets, expected -1", field(line, 0, 40)),
                 "remove the line, or write the file again");
       info.notes.push_back(fmt::format("line {}: set {} begins without -1 of its own", in.number(), set_number(line)));
-      read_set(in, line, visit, info, data, other_series);
+      read_set(in, line, visit, info, data, keep_functions);
       continue;
     }
     std::string set_line;
@@ -333,11 +384,22 @@ UniversalData scan_universal_sets(const fs::path& file, const Visitor& visit, Re
       in.back(set_line);
       continue;
     }
-    read_set(in, set_line, visit, info, data, other_series);
+    read_set(in, set_line, visit, info, data, keep_functions);
   }
   for (auto& [label, position] : data.nodes) position /= data.length_factor;
-  if (other_series > 0) info.notes.push_back(fmt::format("{} sets 58 hold spectra or other functions, left out", other_series));
   return data;
+}
+
+bool holds_frequency_responses(const fs::path& file) {
+  if (!fs::is_regular_file(file) || !is_universal_file(file)) return false;
+  UniversalLines in(file);
+  for (std::string line; in.next(line);) {
+    if (!is_delimiter(line) || !in.next(line) || set_number(line) != 58) continue;
+    for (int record = 1; record <= 6; ++record)
+      if (!in.next(line)) return false;
+    return integer_or(field(line, 0, 5), 0) == kFrequencyResponse;
+  }
+  return false;
 }
 
 RecordInfo scan_universal(const fs::path& file, const Visitor& visit) {
@@ -345,8 +407,10 @@ RecordInfo scan_universal(const fs::path& file, const Visitor& visit) {
   const UniversalData data = scan_universal_sets(file, visit, info);
   info.names_channels = true;
   name_by_difference(info.channels);
-  info.format = fmt::format("universal file, {} time series, {} nodes, {} lines, {} shapes", info.channels.size(),
-                            data.nodes.size(), data.lines.size(), data.results.size());
+  const auto responses = std::ranges::count(data.functions, kFrequencyResponse, &UniversalFunction::function);
+  info.format = fmt::format("universal file, {} time series, {}{} nodes, {} lines, {} shapes", info.channels.size(),
+                            responses > 0 ? fmt::format("{} frequency response functions, ", responses) : "", data.nodes.size(),
+                            data.lines.size(), data.results.size());
   for (const ChannelInfo& channel : info.channels) {
     if (channel.rate_Hz > 0.0 && info.rate_Hz == 0.0) {
       info.rate_Hz = channel.rate_Hz;
@@ -361,6 +425,7 @@ RecordInfo scan_universal(const fs::path& file, const Visitor& visit) {
   }
   if (!data.has_header) info.notes.push_back("no set 151 (header)");
   if (!data.has_units) info.notes.push_back("no set 164 (units): coordinates are taken as metres");
+  list_response_points(data.functions, info);
   for (const auto& [set, count] : data.others)
     info.notes.push_back(fmt::format("{} set{} {} left out", count, count == 1 ? "" : "s", set));
   return info;

@@ -33,6 +33,38 @@ struct UniversalElement {
 /// Whether elements of that kind have a line with the node of their orientation.
 [[nodiscard]] constexpr bool is_beam(long descriptor) { return descriptor == 11 || (descriptor >= 21 && descriptor <= 24); }
 
+/// Numbers of the format's lists: types of functions (record 6 of set 58) and of quantities (records 8 to 10).
+enum UniversalCode {
+  kAutoSpectrum = 2,
+  kCrossSpectrum = 3,
+  kFrequencyResponse = 4,
+  kCoherence = 6,
+  kDisplacementData = 8,
+  kReactionForceData = 9,
+  kVelocityData = 11,
+  kAccelerationData = 12,
+  kForceData = 13,
+  kFrequencyData = 18
+};
+
+/// A function of set 58 that is no time series: a frequency response function, a coherence, a spectrum.
+struct UniversalFunction {
+  int function = 0;                      ///< type, UniversalCode
+  int number = 0;                        ///< position among the sets 58 of the file, from 1
+  long line = 0;                         ///< where its record 6 stands
+  std::string response, reference;       ///< node and direction, "12+z"; empty for none
+  std::vector<std::string> other_names;  ///< of the response: its entity, the title lines
+  std::string unit;                      ///< of the ordinate's numerator, as written
+  int quantity = 0, over = 0;            ///< type of data of the ordinate's numerator and denominator; 0: not known
+  int abscissa = 0;                      ///< type of data of the abscissa
+  std::string abscissa_unit;             ///< as written
+  bool complex = false;                  ///< false: real values, an amplitude
+  Eigen::Index lines = 0;                ///< number of values
+  /// (n_lines) abscissa, as written. Without the values: first and last line of an even one, nothing of an uneven one.
+  Eigen::VectorXd at;
+  std::vector<std::complex<double>> ordinate;  ///< (n_lines), if it was asked for
+};
+
 /// What universal files hold beside time series.
 struct UniversalData {
   std::string title;                           ///< set 151
@@ -43,6 +75,7 @@ struct UniversalData {
   std::vector<UniversalElement> elements;      ///< set 2412
   std::vector<std::vector<long>> lines;        ///< set 82: chains of nodes
   std::vector<NodalResult> results;            ///< set 55
+  std::vector<UniversalFunction> functions;    ///< sets 58 that are no time series
   std::map<std::string, int> others;           ///< sets that are not read, by number
 };
 

@@ -14,6 +14,7 @@
 #include "npy_double.hpp"
 #include "records/record.hpp"
 #include "records/universal.hpp"
+#include "universal_responses.hpp"
 #include "universal_series.hpp"
 
 namespace twindeck::broken {
@@ -129,6 +130,26 @@ void write_uff(const fs::path& file, bool binary) {
   records::write_universal_series(info, sound_record(), binary, file);
 }
 
+/// Accelerances of the same two oscillators: points 1+x, 2+x and 3+z to a hammer at 1+x, 0.5 to 12 Hz in steps of 0.0625 Hz.
+void write_responses(const fs::path& file, bool binary) {
+  test::ModalModel model;
+  model.frequency_Hz = Eigen::Vector2d(2.0, 6.0);
+  model.damping_ratio = Eigen::Vector2d(0.01, 0.01);
+  model.shapes.resize(3, 2);
+  model.shapes << 0.6, 1.0, 1.0, -0.6, 0.4, 0.2;
+  std::string text;
+  for (int point = 0; point < 3; ++point) {
+    test::WrittenFunction w;
+    w.response = point + 1;
+    w.response_direction = point < 2 ? 1 : 3;
+    w.reference_direction = 1;
+    w.f = Eigen::VectorXd::LinSpaced(185, 0.5, 12.0);
+    w.h = model.accelerance(point, 0, w.f);
+    text += universal_function(w, binary);
+  }
+  std::ofstream(file, std::ios::binary) << text;
+}
+
 }  // namespace
 
 MatrixXd sound_record() {
@@ -174,6 +195,7 @@ void write_sound_record(const fs::path& file, const std::string& format) {
   if (format == "mat5z") return write_mat(file, MAT_FT_MAT5, MAT_COMPRESSION_ZLIB);
   if (format == "mat73") return write_mat(file, MAT_FT_MAT73, MAT_COMPRESSION_NONE);
   if (format == "hdf5") return write_hdf5(file);
+  if (format == "frf" || format == "frfb") return write_responses(file, format == "frfb");
   if (format == "uff" || format == "uffb") return write_uff(file, format == "uffb");
   throw std::runtime_error("no record is written as '" + format + "'");
 }

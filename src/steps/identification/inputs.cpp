@@ -76,16 +76,16 @@ std::vector<identification::Conditioned> read_kind(const records::Campaign& camp
 }
 
 /// Kind of the records that give the modes of the structure: as configured. For a campaign without ambient records these are
-/// its free decays, otherwise its stays.
+/// its frequency response functions, else its free decays, otherwise its stays.
 std::string main_kind(const records::Campaign& campaign, const identification::IdentificationSettings& config) {
   const auto has = [&](const std::string& kind) {
     return std::ranges::any_of(campaign.records, [&](const records::CampaignRecord& record) { return record.kind == kind; });
   };
   const bool others = std::ranges::any_of(campaign.records, [](const records::CampaignRecord& record) {
-    return record.kind != "stay" && record.kind != "free_decay";
+    return record.kind != "stay" && record.kind != "free_decay" && record.kind != records::kFrfKind;
   });
   if (config.kind != "ambient" || others) return config.kind;
-  return has("free_decay") ? "free_decay" : has("stay") ? "stay" : config.kind;
+  return has(records::kFrfKind) ? records::kFrfKind : has("free_decay") ? "free_decay" : has("stay") ? "stay" : config.kind;
 }
 
 identification::IdentificationSettings decay_settings(const identification::IdentificationSettings& config) {
@@ -136,6 +136,14 @@ IdentificationInputs read_identification_inputs(const identification::Identifica
   } else {
     const std::vector<records::RecordGroup> groups = records::record_groups(read.campaign, chosen);
     if (read.decays_are_main) context.say("the modes are those of the free decays, by ERA");
+    if (kind == records::kFrfKind)
+      context.say(
+          "the modes are those of the frequency response functions: poles by pLSCF, then a modal model fitted to them; "
+          "standard deviations from its residuals");
+    else if (const auto& is = config.condition;
+             !records::record_groups(read.campaign, {"", is, records::kFrfKind, {}}, true).empty())
+      context.warn(
+          "the campaign's frequency response functions are not used beside its time series; --set kind=frf identifies them");
     for (const std::vector<records::RecordGroup>& one : records::by_condition(groups)) {
       if (read.decays_are_main) break;
       left_out.attempt("condition " + one.front().condition,
@@ -177,7 +185,7 @@ io::FieldTable IdentificationConfig::fields() {
       .text("condition", condition, "condition whose records are used; empty: all, and modes.csv holds the modes of the first")
       .text("kind", kind,
             "kind of the records: ambient, wind, earthquake or another with broadband excitation; free_decay: identified by "
-            "ERA; stay: stays only")
+            "ERA; frf: frequency response functions, by pLSCF; stay: stays only")
       .choice("method", method, {"covariance", "data"},
               "subspace identification from correlations or from the data; measured inputs are used")
       .choice("selection", selection, {"automatic", "paper"}, "rule that selects the modes: automatic, or paper Eqs. (3)-(4)")
