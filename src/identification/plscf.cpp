@@ -42,15 +42,16 @@ Moments moments_of(const Eigen::VectorXcd& z, const MatrixXcd& values, Index n_i
     powers.col(most - d) = powers.col(most + d).conjugate();
   }
   m.one = powers.colwise().sum();
-  for (Index o = 0; o < values.cols() / n_inputs; ++o) {
-    const auto h = values.middleCols(o * n_inputs, n_inputs);
-    m.outputs.emplace_back(powers.transpose() * h);
-    for (Index i = 0; i < n_inputs; ++i)
-      for (Index j = 0; j < n_inputs; ++j) {
-        const Eigen::VectorXcd product = powers.transpose() * h.col(i).conjugate().cwiseProduct(h.col(j));
-        for (Index d = 0; d <= 2 * most; ++d) m.squares[static_cast<std::size_t>(d)](i, j) += product[d];
-      }
-  }
+  const Index n_outputs = values.cols() / n_inputs;
+  for (Index o = 0; o < n_outputs; ++o) m.outputs.emplace_back(powers.transpose() * values.middleCols(o * n_inputs, n_inputs));
+  for (Index i = 0; i < n_inputs; ++i)
+    for (Index j = 0; j < n_inputs; ++j) {
+      Eigen::VectorXcd products = Eigen::VectorXcd::Zero(z.size());
+      for (Index o = 0; o < n_outputs; ++o)
+        products += values.col(o * n_inputs + i).conjugate().cwiseProduct(values.col(o * n_inputs + j));
+      const Eigen::VectorXcd sums = powers.transpose() * products;
+      for (Index d = 0; d <= 2 * most; ++d) m.squares[static_cast<std::size_t>(d)](i, j) = sums[d];
+    }
   return m;
 }
 
@@ -96,12 +97,11 @@ Eigen::VectorXcd shape_at(const Moments& m, const Fraction& fraction, std::compl
   const Eigen::RowVectorXcd left = powers * fraction.gram;
   const Eigen::VectorXcd right = fraction.a * v;  // the vectors A_k v, one below the other
   const MatrixXcd blocks = Eigen::Map<const MatrixXcd>(right.data(), m.n_inputs, p + 1);
-  Eigen::VectorXcd shape = Eigen::VectorXcd::Zero(std::ssize(m.outputs));
-  for (Index o = 0; o < shape.size(); ++o) {
-    const MatrixXcd products = m.outputs[static_cast<std::size_t>(o)] * blocks;  // (2 most + 1 × p + 1)
-    for (Index a = 0; a <= p; ++a)
-      for (Index b = 0; b <= p; ++b) shape[o] += left[a] * products(b - a + m.most, b);
-  }
+  MatrixXcd weights = MatrixXcd::Zero(2 * m.most + 1, m.n_inputs);  // of the sums of each output
+  for (Index a = 0; a <= p; ++a)
+    for (Index b = 0; b <= p; ++b) weights.row(b - a + m.most) += left[a] * blocks.col(b).transpose();
+  Eigen::VectorXcd shape(std::ssize(m.outputs));
+  for (Index o = 0; o < shape.size(); ++o) shape[o] = m.outputs[static_cast<std::size_t>(o)].cwiseProduct(weights).sum();
   return shape;
 }
 

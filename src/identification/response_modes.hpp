@@ -15,8 +15,10 @@ namespace twindeck::identification {
 
 /// Stabilisation diagram by pLSCF (plscf.hpp), selection as for records, then the modal model of the selected modes
 /// (modal_fit.hpp) for frequency, damping, shape and their standard deviations, which come from the residuals of the fit. Of
-/// modes that the functions do not determine (IdentifyOptions::largest_bandwidth_share) the worst is dropped and the others are
-/// fitted again, until each is determined.
+/// modes that the functions do not determine the worst is dropped and the others are fitted again, until each is determined:
+/// its frequency to a share of its half bandwidth (IdentifyOptions::largest_bandwidth_share), its damping ratio beyond noise,
+/// its half-power band within the lines. Where maximum_order was not configured, orders go to 120 in steps of twice order_step.
+/// Lines and references may lower them.
 /// @param conditioned  from condition_responses @return shapes of the points of the shape, in their order
 [[nodiscard]] Identification identify_responses(const Conditioned& conditioned, const IdentificationSettings& config);
 

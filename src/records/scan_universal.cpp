@@ -395,9 +395,12 @@ bool holds_frequency_responses(const fs::path& file) {
   UniversalLines in(file);
   for (std::string line; in.next(line);) {
     if (!is_delimiter(line) || !in.next(line) || set_number(line) != 58) continue;
+    const bool is_binary = line.find('b') != std::string::npos;
     for (int record = 1; record <= 6; ++record)
       if (!in.next(line)) return false;
-    return integer_or(field(line, 0, 5), 0) == kFrequencyResponse;
+    const long function = integer_or(field(line, 0, 5), 0);
+    if (function == kFrequencyResponse || function == kCoherence) return true;
+    if (function <= 1 || is_binary) return false;  // time series, or values that are no lines
   }
   return false;
 }

@@ -16,8 +16,8 @@ namespace twindeck::records {
 UniversalData scan_universal_sets(const std::filesystem::path& file, const Visitor& visit, RecordInfo& info,
                                   bool keep_functions = false);
 
-/// Whether the first set 58 of a file is a frequency response function. False for any other file, and for one that is not
-/// there.
+/// Whether the first set 58 of a file is a frequency response function or a coherence; spectra in text before it are passed
+/// over. False for any other file, and for one that is not there.
 [[nodiscard]] bool holds_frequency_responses(const std::filesystem::path& file);
 
 /// The same contract as `scan` (record.hpp), for the time series of universal files.

@@ -52,7 +52,8 @@ int main(int argc, char** argv) {
   runner::Step step;
   step.token = "s3_identification";
   step.summary =
-      "Identifies modes with standard deviations from vibration records: ambient, free decays, stays, measured inputs.";
+      "Identifies modes with standard deviations from vibration records (ambient, free decays, stays, measured inputs) or "
+      "frequency response functions.";
   step.examples = {
       "s3_identification --campaign my_campaign --out results/my_bridge/s3_identification --set setup=ST1 --set decimation=8",
       "s3_identification --inspect measurement.csv",

@@ -65,6 +65,22 @@ class Pieces(unittest.TestCase):
         self.assertTrue(record.named)
         self.assertIsNone(inspection.read(Path("x.npy"), [line.replace("rate      50 Hz, from the time column", "rate      unknown") for line in INSPECTED]).rate_Hz)
 
+    def test_frequency_response_functions_have_no_rate(self):
+        lines = ["format    universal file, 0 time series, 2 frequency response functions, 2 nodes, 0 lines, 0 shapes", "channels  2, 801 lines",
+                 "functions 2 frequency response functions, 2 points, 1 references, 801 lines, 5 to 45 Hz", INSPECTED[3],
+                 "7-z                      m/s^2               801         0         0        0            0            0",
+                 "9+x                      ?                   801         0         0        0            0            0  unit not given"]
+        record = inspection.read(Path("x.unv"), lines)
+        self.assertEqual((record.rate_Hz, record.samples, record.columns, record.responses), (None, 801, ("7-z", "9+x"), True))
+        missing = []
+        entry = campaign._entry("ST1", record, ["7-z", "9_x"], "as_tested", missing)
+        self.assertEqual(missing, [])
+        self.assertIn('kind = "frf"', entry)
+        self.assertFalse(any(line.startswith("sampling_rate_Hz") for line in entry.splitlines()))
+        found = sensors.of_universal_file(self.write("r.unv", UNIVERSAL.replace("         7         0", "         9         0", 1) + UNIVERSAL), ("7-z", "9+x"))
+        self.assertEqual([found.rows[c]["point"] for c in ("7-z", "9+x")], ["N7", "N9"])
+        self.assertEqual([found.rows["7-z"]["dz"], found.rows["9+x"]["dx"]], ["-1", "1"])
+
     def test_a_remark_behind_a_row_does_not_shift_its_columns(self):
         row = "Acc A                    m/s²               6000         0         0        0            1            0  constant"
         record = inspection.read(Path("x.csv"), [*INSPECTED[:4], row])

@@ -95,7 +95,7 @@ class Hammer(unittest.TestCase):
             self.assertGreater(abs(true @ measured)**2 / (true @ true) / np.vdot(measured, measured).real, 0.999)
 
     def test_a_roving_hammer_in_one_file(self):
-        data = b"".join(function(2, n) for n in range(1, 7))
+        data = b"".join(function(6, n) for n in range(1, 7))
         said = self.identified(self.campaign([("ST1", "h.unv", data, range(1, 7))]))
         self.assertIn("pLSCF", said)
         self.assertIn("the hammer roved over 6 points", said)
@@ -111,18 +111,18 @@ class Hammer(unittest.TestCase):
             self.assertTrue((self.folder / "out" / name).exists(), name)
 
     def test_a_binary_file_for_each_point_and_two_references(self):
-        records = [("ST1", f"p{n}.uff", function(n, 1, binary=True) + function(n, 4, binary=True), [n]) for n in (3, 1, 2, 6, 5, 4)]
+        records = [("ST1", f"p{n}.uff", function(n, 1, binary=True) + function(n, 6, binary=True), [n]) for n in (3, 1, 2, 6, 5, 4)]
         self.identified(self.campaign(records))
         self.expect_modes()
 
     def test_two_setups_are_merged_over_their_references(self):
-        sets = [("ST1", "a.unv", [1, 2, 3, 4]), ("ST2", "b.unv", [1, 2, 5, 6])]
-        self.identified(self.campaign([(s, f, b"".join(function(n, 3) for n in nodes), nodes) for s, f, nodes in sets], references=(1, 2)))
+        sets = [("ST1", "a.unv", [1, 4, 2, 3]), ("ST2", "b.unv", [1, 4, 5, 6])]
+        self.identified(self.campaign([(s, f, b"".join(function(n, 6) for n in nodes), nodes) for s, f, nodes in sets], references=(1, 4)))
         self.expect_modes()
         self.assertEqual({m["setups"] for m in rows(self.folder / "out/modes.csv")}, {"2"})
 
     def test_a_mode_can_be_deleted_and_the_band_cut(self):
-        data = b"".join(function(2, n) for n in range(1, 7))
+        data = b"".join(function(6, n) for n in range(1, 7))
         place = self.campaign([("ST1", "h.unv", data, range(1, 7))])
         self.identified(place, "band.lowest=12", "band.highest=30")
         found = [float(m["frequency_Hz"]) for m in rows(self.folder / "out/modes.csv")]
@@ -134,14 +134,14 @@ class Hammer(unittest.TestCase):
         self.assertEqual([round(float(m["frequency_Hz"])) for m in rows(self.folder / "out/modes.csv")], [26])
 
     def test_a_coherence_is_left_out_with_a_note(self):
-        data = b"".join(function(2, n) for n in range(1, 7)) + function(2, 1, kind=6)
+        data = b"".join(function(6, n) for n in range(1, 7)) + function(6, 1, kind=6)
         said = self.identified(self.campaign([("ST1", "h.unv", data, range(1, 7))]))
         self.assertIn("1 coherences are left out", said)
         self.expect_modes()
 
     def test_inspection_and_a_study_out_of_the_file(self):
         file = self.folder / "test.unv"
-        file.write_bytes(GEOMETRY + b"".join(function(2, n) for n in range(1, 7)))
+        file.write_bytes(GEOMETRY + b"".join(function(6, n) for n in range(1, 7)))
         done = self.run_step("--inspect", file)
         self.assertEqual(done.returncode, 0, done.stderr)
         self.assertIn(f"6 frequency response functions, 6 points, 1 responses (the hammer roved), {len(LINES)} lines, 4 to 31.9375 Hz", done.stdout)
@@ -155,7 +155,7 @@ class Hammer(unittest.TestCase):
         self.assertEqual(len(rows(self.folder / "out/modes.csv")), len(FREQUENCY))
 
     def test_an_ambient_campaign_says_that_its_functions_are_not_used(self):
-        place = self.campaign([("ST1", "h.unv", b"".join(function(2, n) for n in range(1, 7)), range(1, 7))])
+        place = self.campaign([("ST1", "h.unv", b"".join(function(6, n) for n in range(1, 7)), range(1, 7))])
         np.save(place / "a.npy", np.random.default_rng(1).standard_normal((4000, 6)))
         with open(place / "campaign.toml", "a") as toml:
             toml.write('[[record]]\nsetup = "ST2"\nkind = "ambient"\nfile = "a.npy"\nsampling_rate_Hz = 100.0\nchannels = ["1+z", "2+z", "3+z", "4+z", "5+z", "6+z"]\n')
