@@ -25,13 +25,6 @@ bool listed(const std::vector<std::string>& names, const std::string& name) {
   return std::find(names.begin(), names.end(), name) != names.end();
 }
 
-void require_known(const std::vector<std::string>& asked, const std::vector<std::string>& known, const std::string& key) {
-  for (const std::string& name : asked)
-    if (!listed(known, name))
-      throw InputError({"", 0, key}, fmt::format("'{}' is no channel of the record{}", name, did_you_mean(name, known)),
-                       "name its columns");
-}
-
 std::vector<Index> used_columns(const records::Campaign& campaign, const records::CampaignRecord& record,
                                 const IdentificationSettings& config) {
   require_known(config.exclude, record.channels, "exclude");
@@ -188,6 +181,13 @@ Conditioned condition_with(const records::Campaign& campaign, const records::Rec
 }
 
 }  // namespace
+
+void require_known(const std::vector<std::string>& asked, const std::vector<std::string>& known, const std::string& key) {
+  for (const std::string& name : asked)
+    if (!listed(known, name))
+      throw InputError({"", 0, key}, fmt::format("'{}' is no channel of the record{}", name, did_you_mean(name, known)),
+                       "name its columns");
+}
 
 void choose_references(Conditioned& conditioned, const std::vector<std::string>& asked) {
   std::vector<std::string> names;

@@ -42,6 +42,9 @@ struct Conditioned : ConditionedInfo {
   [[nodiscard]] bool has_responses() const { return responses.frequency_Hz.size() > 0; }
 };
 
+/// @throws InputError  with the key, if one of the names that were asked for is no channel of the record
+void require_known(const std::vector<std::string>& asked, const std::vector<std::string>& known, const std::string& key);
+
 /// Sets the references: those asked for, else those marked in channels.csv, else all.
 /// @throws InputError  for a name that is no channel
 void choose_references(Conditioned& conditioned, const std::vector<std::string>& asked);

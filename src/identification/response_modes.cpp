@@ -115,6 +115,10 @@ Index take_fit(Identification& found, const std::vector<FittedMode>& fitted, con
 Conditioned condition_responses(const records::Campaign& campaign, const records::RecordGroup& group,
                                 const IdentificationSettings& config) {
   records::RecordGroup used = group;
+  std::vector<std::string> known;
+  for (const records::CampaignRecord& record : group.records)
+    known.insert(known.end(), record.channels.begin(), record.channels.end());
+  require_known(config.exclude, known, "exclude");
   for (records::CampaignRecord& record : used.records) {
     for (std::size_t c = record.channels.size(); c-- > 0;) {
       if (!contains(config.exclude, record.channels[c])) continue;

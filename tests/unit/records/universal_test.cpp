@@ -10,8 +10,10 @@
 #include "records/scan_universal.hpp"
 #include "records/universal_lines.hpp"
 #include "records/write_universal.hpp"
+#include "same_samples.hpp"
 #include "scratch.hpp"
 #include "universal_series.hpp"
+#include "universal_writer.hpp"
 
 namespace twindeck::records {
 namespace {
