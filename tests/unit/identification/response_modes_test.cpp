@@ -13,9 +13,9 @@ namespace twindeck::identification {
 namespace {
 
 struct HammerCampaign {
-  test::ModalModel model = test::six_modes();
+  twindeck::test::ModalModel model = twindeck::test::six_modes();
   std::vector<Eigen::Index> fixed = {0, 3};  ///< points of the side that stays
-  Eigen::VectorXd lines = test::lines_of(5.0, 45.0, 641);
+  Eigen::VectorXd lines = twindeck::test::lines_of(5.0, 45.0, 641);
   double noise = 0.01;
   bool binary = false, hammer_roves = false, even = true;
 };
@@ -30,14 +30,14 @@ IdentificationSettings by_default() {
 /// Writes the campaign and reads its only setup.
 Conditioned conditioned_test(const HammerCampaign& made, std::uint64_t seed, const IdentificationSettings& config = {}) {
   const records::Scratch scratch;
-  const test::ModalModel& model = made.model;
-  const ResponseData data = test::hammer_data(model, made.fixed, made.lines, made.noise, seed);
+  const twindeck::test::ModalModel& model = made.model;
+  const ResponseData data = twindeck::test::hammer_data(model, made.fixed, made.lines, made.noise, seed);
   std::string text, channels = "channel,quantity,unit\n", names;
   for (Eigen::Index o = 0; o < model.shapes.rows(); ++o) {
     channels += fmt::format("{}+z,acceleration,m/s^2\n", o + 1);
     names += fmt::format("{}\"{}+z\"", o > 0 ? ", " : "", o + 1);
     for (std::size_t i = 0; i < made.fixed.size(); ++i) {
-      test::WrittenFunction w;
+      twindeck::test::WrittenFunction w;
       w.response = made.hammer_roves ? made.fixed[i] + 1 : o + 1;
       w.reference = made.hammer_roves ? o + 1 : made.fixed[i] + 1;
       w.f = made.lines;
@@ -54,13 +54,13 @@ Conditioned conditioned_test(const HammerCampaign& made, std::uint64_t seed, con
 }
 
 void expect_modes(const Identification& found, const std::vector<Eigen::Index>& modes, double least_mac) {
-  const test::ModalModel model = test::six_modes();
+  const twindeck::test::ModalModel model = twindeck::test::six_modes();
   ASSERT_EQ(found.modes.size(), modes.size());
   for (std::size_t k = 0; k < modes.size(); ++k) {
     const Cluster& mode = found.modes[k];
     EXPECT_NEAR(mode.frequency_Hz, model.frequency_Hz[modes[k]], 1e-3 * model.frequency_Hz[modes[k]]);
     EXPECT_NEAR(mode.damping_ratio, model.damping_ratio[modes[k]], 0.02 * model.damping_ratio[modes[k]]);
-    EXPECT_GT(test::mac_with(model, modes[k], mode.shape), least_mac);
+    EXPECT_GT(twindeck::test::mac_with(model, modes[k], mode.shape), least_mac);
   }
 }
 
@@ -126,7 +126,7 @@ TEST(ResponseModes, UnevenLinesAreIdentified) {
 
 TEST(ResponseModes, TooFewLinesAreRefused) {
   HammerCampaign made;
-  made.lines = test::lines_of(5.0, 45.0, 30);
+  made.lines = twindeck::test::lines_of(5.0, 45.0, 30);
   const auto refused = [&](const IdentificationSettings& config) -> std::string {
     try {
       static_cast<void>(conditioned_test(made, 1, config));
@@ -138,7 +138,7 @@ TEST(ResponseModes, TooFewLinesAreRefused) {
   const std::string few = refused({});
   EXPECT_NE(few.find("h.unv"), std::string::npos) << few;
   EXPECT_NE(few.find("has 30 frequency lines above 0 Hz, expected 40 or more"), std::string::npos) << few;
-  made.lines = test::lines_of(5.0, 45.0, 641);
+  made.lines = twindeck::test::lines_of(5.0, 45.0, 641);
   IdentificationSettings narrow;
   narrow.lowest_Hz = 20.0;
   narrow.highest_Hz = 21.0;
@@ -150,12 +150,12 @@ TEST(ResponseModes, SingularValuesPeakAtTheModes) {
   const Conditioned conditioned = conditioned_test({}, 1);
   const SingularSpectra spectra = response_spectra(conditioned.responses);
   ASSERT_EQ(spectra.values.cols(), 2);
-  const test::ModalModel model = test::six_modes();
+  const twindeck::test::ModalModel model = twindeck::test::six_modes();
   for (const Eigen::Index r : {2, 4}) {
     Eigen::Index peak = 0;
-    const auto first = static_cast<Eigen::Index>((model.frequency_Hz[r] - 1.0 - 5.0) * 16.0);
-    spectra.values.col(0).segment(first, 32).maxCoeff(&peak);
-    EXPECT_NEAR(spectra.frequency_Hz[first + peak], model.frequency_Hz[r], 0.0626);
+    const auto from_line = static_cast<Eigen::Index>((model.frequency_Hz[r] - 1.0 - 5.0) * 16.0);
+    spectra.values.col(0).segment(from_line, 32).maxCoeff(&peak);
+    EXPECT_NEAR(spectra.frequency_Hz[from_line + peak], model.frequency_Hz[r], 0.0626);
   }
 }
 
