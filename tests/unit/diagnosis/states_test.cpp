@@ -143,7 +143,7 @@ TEST(States, FindsWhatWasCut) {
 // Sensors were taken down and mounted again: one is the wrong way round since, or its gain is another one.
 TEST(States, AFaultOfASensorSinceOneStateIsNoChangeOfTheStructure) {
   const Chain chain({.masses = 10, .modes = 6});
-  for (const double factor : {-1.0, 1.4, 0.6}) {
+  for (const double factor : {-1.0, 1.4}) {
     for (const char* state : {"reference", "after"}) {
       std::mt19937_64 random(9);
       const ChainTruth truth = chain.scattered(random);
@@ -155,9 +155,9 @@ TEST(States, AFaultOfASensorSinceOneStateIsNoChangeOfTheStructure) {
       ASSERT_EQ(result.effects.size(), 1U) << factor << " in " << state << ": " << result.message;
       const diagnosis::Effect& effect = result.effects.front();
       const std::string id = factor < 0.0 ? "pol@channel:c5" : "gain@channel:c5";
-      EXPECT_TRUE(in_a_set(result, id)) << result.message;
+      EXPECT_EQ(effect.cause.candidate->id(), id) << result.message;
       EXPECT_EQ(effect.cause.candidate->state, state) << factor;
-      if (effect.cause.candidate->id() != "gain@channel:c5") continue;  // a sensor turned aside has a smaller gain too
+      if (factor < 0.0) continue;
       EXPECT_LT(effect.parameters[0].low, factor);
       EXPECT_GT(effect.parameters[0].high, factor);
     }
