@@ -28,7 +28,7 @@ struct CrossSection {
 
 const Eigen::Vector3d& position(const fe::Model& model, int node) { return model.nodes[static_cast<std::size_t>(node)].x_m; }
 
-// Elements that share nodes, taken together, are one line across; its edges are the nodes that one element alone touches.
+// Elements that share nodes form one line across the deck. Its edges are the two nodes that belong to a single element.
 std::vector<CrossSection> cross_sections(const fe::Model& model, const std::string& group) {
   std::map<int, std::vector<int>> neighbours;
   for (const fe::Element& e : model.elements) {
@@ -58,8 +58,8 @@ std::vector<CrossSection> cross_sections(const fe::Model& model, const std::stri
   return lines;
 }
 
-// In order along the deck: by the chord between the two sections farthest apart, which an arc of less than half a circle passes
-// monotonically.
+// Sorts the sections along the chord between the two sections farthest apart. A deck that is an arc of less than half a circle
+// advances monotonically along this chord.
 void order(std::vector<CrossSection>& lines) {
   Eigen::Vector3d chord = Eigen::Vector3d::Zero();
   for (const CrossSection& a : lines)
@@ -146,8 +146,8 @@ void add_interpolated(const fe::Model& model, const std::string& deck, std::vect
   }
 }
 
-// Points aero_<deck>_<number> in the order of their numbers, however many digits these have: 2 comes before 10, and points of a
-// deck whose name goes on after this one's are not of it.
+// Points aero_<deck>_<number>, sorted by their number as a number: 2 comes before 10. Points of a deck whose name only begins
+// with this deck's name are left out.
 std::vector<int> named_nodes(const fe::Model& model, const std::string& deck) {
   const std::string prefix = "aero_" + deck + "_";
   std::map<long, std::pair<std::string, int>> found;
@@ -172,11 +172,11 @@ void add_named(const fe::Model& model, const std::string& deck, std::vector<int>
   for (std::size_t i = 0; i < named.size(); ++i) {
     const std::size_t before = i == 0 ? 0 : i - 1, after = std::min(i + 1, named.size() - 1);
     AeroNode node{.deck = deck, .station_m = station[i] - 0.5 * station.back()};
-    // Nodes stand in the middle of their lengths, the outermost too: half way to each neighbour, at an end twice the one half.
+    // The length reaches half way to each neighbour. An outermost node has twice its one half: it stands in the middle too.
     node.length_m = (before == i || after == i ? 1.0 : 0.5) * (station[after] - station[before]);
     node.x_m = position(model, named[i]);
-    // The circle through three neighbours: its tangent at the middle one; at an end that of the neighbour, mirrored in the
-    // chord.
+    // The tangent of the circle through three neighbours, at the middle one. At an end: the tangent of the neighbour,
+    // mirrored in the chord.
     Eigen::Vector3d along = position(model, named[after]) - position(model, named[before]);
     if (i > 0 && i + 1 < named.size()) {
       const Eigen::Vector3d u = node.x_m - position(model, named[before]), v = position(model, named[after]) - node.x_m;

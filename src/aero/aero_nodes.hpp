@@ -27,12 +27,13 @@ struct AeroNodes {
 
 /// Aerodynamic nodes of a finite element model, `per_deck` between the end stays of each deck.
 ///
-/// Where the model names its own (points.csv: aero_<deck>_01 … as many as asked for, in the order of their numbers), those
-/// nodes and their rotations are taken, each in the middle of its length: half the way to its neighbours, the outermost as far
-/// outwards. Otherwise they are laid evenly, by interpolation between the deck's cross sections: lines of elements of the group
-/// `cross_group` across the deck. A section moves with the mean of its two edges. Its two horizontal rotations follow from the
-/// difference of its edges and from the slope to the next section. They are exact for a rigid motion, on a curved deck too.
-/// Rotation about the vertical does not meet any wind force and is left zero. A deck without stays is taken from end to end.
+/// If points.csv of the model names as many nodes as asked for (aero_<deck>_01 …), these nodes and their rotations are used in
+/// the order of their numbers. The influence length of each reaches half way to its neighbours; that of an outermost node
+/// reaches as far outwards. Otherwise the nodes are evenly spaced, by interpolation between the deck's cross sections. A cross
+/// section is a line of elements of the group `cross_group` across the deck. A section moves with the mean of its two edges.
+/// Its two horizontal rotations follow from the difference of its edges and from the slope to the next section. They are exact
+/// for a rigid motion, on a curved deck too. Rotation about the vertical does not meet any wind force and is left zero. A deck
+/// without stays is taken from end to end.
 /// @throws InputError  for a deck that the model does not have, and for two points of one number
 [[nodiscard]] AeroNodes find_aero_nodes(const fe::Model& model, const std::vector<std::string>& decks,
                                         const std::vector<std::string>& cross_groups, int per_deck);

@@ -12,7 +12,7 @@ StripBlock self_excited(const SectionAero& section, const Strip& strip, const Ya
   const double B = section.chord_m, w = omega_rad_s;
   const double v = speed_m_s * lookup_factor(rule, strip.yaw_rad) / (w * B);
   const DerivativeBlock d = section.derivatives->at(strip.alpha_rad, v);
-  // One B more for each of: moment as force, rotation as motion.
+  // The row of the moment and the column of the rotation have one factor B more each.
   const Eigen::Vector3d arm(1.0, 1.0, B);
   const Eigen::Matrix3d size = (0.5 * density_kg_m3 * B * B * strip.length_m) * (arm * arm.transpose());
   const Eigen::Matrix3d scale = size.cwiseProduct(block_factor(rule, strip.yaw_rad));

@@ -17,7 +17,7 @@ struct StripBlock {
 
 /// Paper Eq. (8) in the dimensional form of Scanlan's derivatives with a rule of Table 11:
 ///   damping   = ½ρωB²L  ∘ H*(alpha, K') ∘ factor,   stiffness = ½ρω²B²L ∘ H*(alpha, K') ∘ factor,
-/// one more B for the column of alpha and for the row of the moment; K' by the rule's reduced velocity.
+/// The column of alpha and the row of the moment have one factor B more each. K' belongs to the rule's reduced velocity.
 /// @param speed_m_s  > 0;  @param omega_rad_s > 0
 /// @throws InputError  from the derivatives, outside their range
 [[nodiscard]] StripBlock self_excited(const SectionAero& section, const Strip& strip, const YawRule& rule, double density_kg_m3,

@@ -16,7 +16,7 @@ bool ascends(const std::vector<double>& axis) {
   return !axis.empty() && std::ranges::adjacent_find(axis, std::greater_equal<>()) == axis.end();
 }
 
-// Place between two neighbours of an axis; at or beyond an end, the end.
+// Position of a value between two neighbouring points of an axis. A value at or beyond an end gets that end.
 struct Between {
   Eigen::Index lower, upper;
   double part;
@@ -62,7 +62,7 @@ DerivativeTable::DerivativeTable(Convention convention, std::vector<double> alph
 }
 
 bool DerivativeTable::covers_angle(double alpha_rad) const {
-  // A single angle of attack is a section tested at one angle only: it stands for all.
+  // A table with a single angle of attack comes from a test at that angle only. It is used at every angle.
   return alpha_rad_.size() == 1 || (alpha_rad >= alpha_rad_.front() && alpha_rad <= alpha_rad_.back());
 }
 

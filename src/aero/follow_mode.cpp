@@ -15,8 +15,8 @@ constexpr int max_iterations = 200;
 constexpr double tolerance = 1e-12;  // of |λ|: the last Newton step
 constexpr double least_mac = 0.5;    // below it another mode was found
 constexpr int most_halvings = 7;
-constexpr double no_inverse = 1e100;        // of the inverse on a unit vector: beyond it squares overflow
-constexpr double least_oscillation = 0.02;  // Im λ over |λ|: a mode with less no longer oscillates for any purpose of ours
+constexpr double no_inverse = 1e100;        // of the inverse times a unit vector: the squares of larger numbers overflow
+constexpr double least_oscillation = 0.02;  // Im λ over |λ|: below this value a mode counts as no longer oscillating
 
 // D(λ) and dD/dλ with the self-excited forces of one frequency.
 struct Dynamic {

@@ -35,15 +35,15 @@ struct Branch {
   Status status;  ///< not converged: where the mode was lost (it stopped oscillating, for instance)
 };
 
-/// Mode tracking through ascending speeds (p-K iteration: forces are those of harmonic motion at Im λ, so that the critical
-/// speed, where λ is imaginary, is exact). At each speed Newton's iteration on (λ² + λC + Λ - λCa - Ka) v = 0 from the mode at
-/// the speed before, forces renewed with Im λ; a step that loses the shape (MAC below one half) is halved.
+/// Tracks a mode through ascending speeds by p-K iteration. The forces are those of harmonic motion at Im λ, so the critical
+/// speed, where λ is imaginary, is exact. At each speed Newton's iteration solves (λ² + λC + Λ - λCa - Ka) v = 0 from the mode
+/// at the speed before, with forces renewed at Im λ. A step that loses the shape (MAC below one half) is halved.
 [[nodiscard]] Branch follow_mode(const AeroelasticSystem& system, const ComplexMode& still_air, int mode,
                                  const std::vector<double>& speed_m_s);
 /// The mode at one speed, from a mode at a lower one. @return empty if it cannot be tracked
 [[nodiscard]] std::optional<ComplexMode> mode_at(const AeroelasticSystem& system, const ComplexMode& from,
                                                  double from_speed_m_s, double speed_m_s);
-/// Frequencies at which derivatives are taken [rad/s]; beyond an end those of the end hold.
+/// Range of frequencies at which derivatives are taken [rad/s]. Outside the range those of its nearer end are used.
 struct FrequencyRange {
   double lowest = 0.0, highest = std::numeric_limits<double>::infinity();
 };
@@ -57,7 +57,7 @@ struct CriticalPoint {
   double speed_m_s = 0.0, frequency_Hz = 0.0;
   double still_air_frequency_Hz = 0.0;
   ComplexMode motion;
-  double bracket_m_s = 0.0;  ///< the damping may be lost so much below `speed_m_s`
+  double bracket_m_s = 0.0;  ///< the critical speed lies at most this far below `speed_m_s`
 };
 /// [-] of the speed, to which a critical speed is refined.
 inline constexpr double relative_bracket = 1e-10;

@@ -13,16 +13,16 @@
 namespace twindeck::aero {
 namespace {
 
-/// [V/(f B)] from here on derivatives are held against their limit in size: a thin plate's are within a fifth of it
-/// (Theodorsen's C(k) at k = 0.16 is 0.80 - 0.19i).
+/// [V/(f B)] From this reduced velocity on, the size of derivatives is compared with their quasi-steady limit. Those of a thin
+/// plate are then within a fifth of it (Theodorsen's C(k) at k = 0.16 is 0.80 - 0.19i).
 constexpr double steady_from = 20.0;
-/// [-] share of the limit by which a derivative may differ from it: bluff decks are further from it than a plate, a wrong sign
-/// is off by twice the limit.
+/// [-] A derivative may differ from its limit by this share of the limit. Bluff decks differ by more than a plate; a wrong sign
+/// differs by twice the limit.
 constexpr double share_of_limit = 0.5;
-/// [-] and by this much at least: what a wind tunnel leaves of coefficients that nearly vanish.
+/// [-] A smaller difference is always allowed: it is the scatter of wind tunnel tests for coefficients near zero.
 constexpr double least_difference = 0.15;
-/// [-] share of the largest slope by which a slope may differ from the coefficients' differences, which rows 5 degrees apart on
-/// a stalling polar come near.
+/// [-] A slope may differ from the difference quotient of the coefficients by this share of the largest slope. Rows 5 degrees
+/// apart on a stalling polar come near it.
 constexpr double share_of_slope = 0.25;
 constexpr double least_slope = 0.05;  ///< [1/rad] the rounding of coefficients with three decimals, half a degree apart
 
@@ -87,7 +87,7 @@ std::optional<std::string> pitching_damping(const DerivativeTable& table) {
       table.source(), found, 2.0 * std::numbers::pi * v, alpha * degrees);
 }
 
-// Which derivatives have a quasi-steady limit: all but those of displacements, and those of the rotational rate with their arm.
+// The derivatives that have a quasi-steady limit: none of displacements, those of the rotational rate only with a known arm.
 std::vector<std::size_t> with_limit(const QuasiSteady::Arms& arms) {
   std::vector<std::size_t> which;
   for (std::size_t i = 0; i < Derivatives18().size(); ++i) {

@@ -12,7 +12,7 @@ namespace twindeck::aero {
 struct Growth {
   ComplexMode motion;
   int still_air_mode = 0;         ///< the mode without wind whose shape is the nearest, counted as in Branch; 0: there is none
-  bool at_own_frequency = false;  ///< found with derivatives of the motions' own frequencies, none of the frozen ones counting
+  bool at_own_frequency = false;  ///< found with derivatives of its own frequency, because nothing grows with frozen ones
   /// "mode 1 grows at 0.599 Hz, damping ratio -0.84 %".
   [[nodiscard]] std::string in_words() const;
 };
