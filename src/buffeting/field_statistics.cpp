@@ -19,9 +19,9 @@ using Eigen::MatrixXcd;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-/// Segments of the spectra: longer ones are fewer, and their coherence scatters more. The limits below rest on this length.
+/// Length of the spectra's segments. Longer ones are fewer, so their coherence scatters more. The limits below belong to it.
 constexpr double kSegment_s = 64.0;
-/// Limits of 20 seeds of 600 s, three standard deviations of the mean at the worst of 60 points; shorter work scatters more.
+/// Limits for 20 seeds of 600 s: three standard deviations of the mean, at the worst of 60 points. Shorter runs scatter more.
 constexpr double kLimitSeeds = 20.0, kLimitDuration_s = 600.0;
 constexpr wind::PerComponent kSigmaLimit = {0.05, 0.03, 0.02};    ///< [-] of the standard deviations of v', u', w'
 constexpr double kSpectrumLimit = 0.015, kCoherenceLimit = 0.05;  ///< [-] RMS over frequencies; over pairs and frequencies
@@ -31,7 +31,7 @@ constexpr double kSpectrumLimit = 0.015, kCoherenceLimit = 0.05;  ///< [-] RMS o
 FieldStatistics::FieldStatistics(std::string event, const std::vector<wind::Simulator>& simulators, long seeds)
     : event_(std::move(event)), simulators_(simulators), seeds_(static_cast<std::size_t>(seeds)) {
   const wind::Simulator& along = simulators.front();
-  // No wave at or above the cutoff: every stride-th sample tells all.
+  // There is no wave at or above the cutoff, so every stride-th sample holds the whole signal.
   const double rate = static_cast<double>(along.n_samples()) * along.spacing_Hz();
   const double cutoff = static_cast<double>(along.n_waves() + 1) * along.spacing_Hz();
   stride_ = std::max<Index>(1, static_cast<Index>(rate / (2.0 * cutoff)));

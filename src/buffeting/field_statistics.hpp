@@ -8,13 +8,13 @@
 
 namespace twindeck::buffeting {
 
-/// How well the samples have what they were asked to have.
+/// A statistic of the samples beside its target and the allowed difference.
 struct FieldCheck {
   std::string event, quantity;
   double target = 0.0, found = 0.0, allowed = 0.0;
 };
 
-/// Collects what the samples have, seed by seed in any order; one instance an event.
+/// Collects the statistics of the samples, seed by seed in any order. Each event has an instance of its own.
 class FieldStatistics {
  public:
   /// @param simulators  one a component, which outlive this

@@ -30,7 +30,7 @@ Response respond(const transient::Newmark& newmark, const Eigen::Ref<const Matri
                  const ResponseOptions& options) {
   const auto lead = static_cast<Index>(std::llround(options.lead_in_s / step_s));
   const Index given = wind_m_s.rows(), n = options.repeats ? given : given - lead;
-  // From rest: the load comes up over the first half of the lead-in, so that no jump rings on.
+  // The motion starts from rest. The load grows over the first half of the lead-in, so that no jump leaves vibrations.
   const Index ramp = lead / 2;
   const MatrixXd forces = newmark.within_a_step(load).transpose();
   const MatrixXd seen = sensors.transpose();
@@ -39,7 +39,7 @@ Response respond(const transient::Newmark& newmark, const Eigen::Ref<const Matri
   out.acceleration_m_s2.resize(n, sensors.rows());
   transient::Motion motion;
   for (Index i = -lead, count = 0; i < n; i += count) {
-    // Where the sample is periodic, however often, the run-up is its end.
+    // The run-up of a periodic sample is its end, and for a longer run-up the sample repeats.
     const Index from = options.repeats ? (i % n + n) % n : i + lead;
     count = std::min({piece, i < 0 ? -i : n - i, given - from});
     MatrixXd step = linalg::product(wind_m_s.middleRows(from, count), forces).transpose();

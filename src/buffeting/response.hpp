@@ -17,8 +17,8 @@ namespace twindeck::buffeting {
 /// Accelerations at sensors under one sample of turbulence.
 struct ResponseOptions {
   double lead_in_s = 60.0;  ///< run-up before the record
-  /// The sample is periodic: the run-up is its end, and for a longer one all of it again. Otherwise the run-up is the sample's
-  /// own first part, and the record is the rest.
+  /// true: the sample is periodic, and the run-up is its end; for a longer run-up the sample repeats. false: the run-up is the
+  /// first part of the sample, and the record is the rest.
   bool repeats = true;
 };
 struct Response {

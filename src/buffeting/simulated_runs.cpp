@@ -26,7 +26,7 @@ struct Prepared {
   transient::Newmark newmark;
 };
 
-constexpr double kLowestDerivatives_Hz = 0.2;  ///< derivatives are those of this frequency below it, well below the first mode
+constexpr double kLowestDerivatives_Hz = 0.2;  ///< lower frequencies use the derivatives of this one; below all modes
 
 /// Whether the response in this wind is stationary, both as it is integrated in time and in the frequency domain.
 Status stability(const BridgeInWind& bridge, const WindEventSettings& config, const WindEvent& event, const ValidationRun& run,
@@ -57,7 +57,7 @@ void add_spectral_values(RunResult& result, const BridgeInWind& bridge, const Wi
   result.spectral_rms = rms();
 }
 
-/// Results without their seeds, and what the seeds need of the stable runs.
+/// Results that do not depend on the seed, and the stable runs with the data that every seed needs.
 struct Start {
   std::vector<RunResult> results;
   std::vector<Prepared> stable;

@@ -21,7 +21,7 @@ struct RunResult {
   Status status;  ///< not converged: names the event, its speed, the run and the motion that grows
 };
 
-/// The simulations of one event, and how well its samples have what they were asked to have.
+/// The simulations of one event, and the statistics of its samples beside their targets.
 struct SimulatedEvent {
   std::vector<RunResult> runs;
   std::vector<FieldCheck> checks;

@@ -29,7 +29,7 @@ std::complex<double> maxwell_stiffness(const aero::MaxwellUnit& unit, double ome
   return unit.stiffness_N_m * dashpot / (unit.stiffness_N_m + dashpot);
 }
 
-/// Real and imaginary parts of a complex matrix, one below the other: both go through real factors by themselves.
+/// The real part of a complex matrix above its imaginary part. A real factor then multiplies both at once.
 MatrixXd split_parts(const MatrixXcd& complex) {
   MatrixXd split(2 * complex.rows(), complex.cols());
   split << complex.real(), complex.imag();
@@ -46,7 +46,7 @@ MatrixXd scaled_transfer(const Eigen::Ref<const MatrixXd>& split, const Eigen::V
   return out;
 }
 
-/// A slope's change of the impedance between pairs of vectors: parts that are zero are not multiplied.
+/// The change of the impedance by one slope, between pairs of vectors. Parts that are zero are skipped.
 struct ImpedanceParts {
   const SystemSlope& slope;
   bool of_stiffness, of_damping;
@@ -127,7 +127,7 @@ MatrixXd response_spectra(const aero::AeroelasticSystem& system, double speed_m_
       is_frozen ? system.self_excited(speed_m_s, options.frozen_omega) : aero::AeroelasticSystem::Block();
   parallel_for(f_Hz.size(), [&](Index k) {
     const double omega = 2.0 * std::numbers::pi * f_Hz[k];
-    // Few sensors and many loads: solved for the sensors, with the transpose.
+    // There are fewer sensors than loads, so the transposed system is solved for the sensors.
     MatrixXcd z =
         impedance(system, is_frozen ? frozen : system.self_excited(speed_m_s, std::max(omega, options.lowest_omega)), omega)
             .transpose();
@@ -138,7 +138,7 @@ MatrixXd response_spectra(const aero::AeroelasticSystem& system, double speed_m_
     for (std::size_t c = 0; c < fields.size(); ++c) {
       const wind::FieldDefinition& field = fields[c];
       const Index first = static_cast<Index>(c) * strips;
-      // A table may be no coherence, and a variance then be negative.
+      // Refuses a table that is not positive definite, because a variance could be negative.
       if (field.coherence_table) static_cast<void>(wind::coherence_factor(field, f_Hz[k]));
       const MatrixXd split = scaled_transfer(transfer.middleCols(first, strips), turbulence_at_points(field, f_Hz[k]));
       const VectorXd square = linalg::product(split, wind::coherence(field, f_Hz[k])).cwiseProduct(split).rowwise().sum();

@@ -40,7 +40,7 @@ class StepwiseDampers {
     for (std::size_t j = 0; j < dampers.size(); ++j) {
       const double dashpot = 2.0 * dampers[j]->damping / dt_, spring = dampers[j]->stiffness;
       const bool in_series = dampers[j]->series;
-      // Without spring or dashpot a chain of both holds no force.
+      // A Maxwell unit without spring or without dashpot carries no force.
       within_[static_cast<Index>(j)] = !in_series                      ? dashpot
                                        : spring > 0.0 && dashpot > 0.0 ? spring * dashpot / (spring + dashpot)
                                                                        : 0.0;
@@ -108,7 +108,7 @@ std::vector<TimeCheck> check_time_integration(const BridgeInWind& bridge, const 
   const Index steps = std::min<Index>(static_cast<Index>(std::llround(config.full_model_check_s / config.step_s)),
                                       static_cast<Index>(std::llround(config.duration_s / config.step_s)));
   MatrixXd amplitude = Gusts(bridge, set, config, event.speed_m_s, config.step_s).sample(seed).topRows(steps).transpose();
-  // From nothing over the first quarter: a jump would ring in modes that no gust reaches.
+  // The forces grow from zero over the first quarter: a jump would excite modes above the frequencies of the gusts.
   for (Index i = 0; i < steps / 4; ++i)
     amplitude.col(i) *= 0.5 - 0.5 * std::cos(std::numbers::pi * static_cast<double>(i) / static_cast<double>(steps / 4));
   const double omega1 = bridge.frozen_omega;
@@ -154,7 +154,7 @@ MatrixXd full_model_history(const dynamics::LoadedModel& loaded, const std::vect
   const MatrixXd direction = aero::damper_patterns(loaded, dampers);
   const double dt = step_s, quarter = 0.25 * dt * dt;
 
-  // M + dt/2 C + dt²/4 K, with each damper as what it is within a step.
+  // M + dt/2 C + dt²/4 K, with the stiffness that each damper has within a step.
   StepwiseDampers stepwise(dampers, dt);
   const double mass_part = 1.0 + 0.5 * dt * damping.mass_part, stiffness_part = quarter + 0.5 * dt * damping.stiffness_part;
   linalg::SparseMatrix effective = mass_part * m + stiffness_part * k;

@@ -7,8 +7,8 @@
 namespace twindeck {
 namespace {
 
-/// What of an input is echoed at most [bytes]: a line of a terminal holds some hundred letters, a list of known names some
-/// more.
+/// [bytes] Longest part of an input that a message repeats. A line of a terminal holds some hundred letters, a list of known
+/// names holds more.
 constexpr std::size_t kLongestName = 300, kLongestPart = 1500;
 
 std::string compose(const Place& place, const std::string& problem, const std::string& mend) {
@@ -24,8 +24,8 @@ std::string compose(const Place& place, const std::string& problem, const std::s
   return text;
 }
 
-/// Cost of a slip, and of a letter that differs from the right one in its case alone: of "Z_m" and the columns x_m, y_m and
-/// z_m, the last is the nearest.
+/// Cost of a wrong letter, and of a letter in the wrong case. The second is smaller, so that among the columns x_m, y_m and z_m
+/// the last is the nearest to "Z_m".
 constexpr std::size_t kSlip = 2, kSlipOfCase = 1;
 
 char lower(char letter) { return letter >= 'A' && letter <= 'Z' ? static_cast<char>(letter - 'A' + 'a') : letter; }

@@ -23,7 +23,7 @@ constexpr Range kFactor{1e-3, 1e3};        // [-]
 constexpr Range kPull{1.0, 1e8};           // [N]
 constexpr Range kMassPerLength{0.0, 1e5};  // [kg/m]
 
-/// Of the stiff members that connect solids with what meets them at a point: fifty times steel, without weight.
+/// Material of the stiff members that connect a node with the face of a solid: fifty times as stiff as steel, no weight.
 const fe::Material kRigid{"rigid", 1e13, 1e13 / 2.6, 0.3, 0.0};
 
 fe::Section round_section(const std::string& name, double outer_m, double inner_m, double shear_factor) {

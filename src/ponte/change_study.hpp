@@ -25,7 +25,7 @@ struct ChangeStudy {
   Status status;
 };
 
-/// Each change is generated, prestressed and solved on its own; models run side by side, results do not depend on how many.
+/// Each model is generated, prestressed and solved on its own, in parallel. Results do not depend on the number of threads.
 /// @param mesh  of the generator, "" for its own  @param progress  called with the number of models done
 [[nodiscard]] ChangeStudy study_changes(const std::filesystem::path& bridge_toml, const std::string& mesh, int n_modes,
                                         int extra_modes, const std::function<void(int done, int of)>& progress);

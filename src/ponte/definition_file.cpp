@@ -90,7 +90,7 @@ std::vector<std::string> DefinitionFile::paths_below(const std::string& table) c
 DefinitionFile::Value& DefinitionFile::find(const std::string& path) {
   const auto found = values_.find(path);
   if (found == values_.end()) {
-    // A misspelt neighbour is the likeliest cause: look among the keys that nobody has asked for.
+    // A misspelt key is the likeliest cause. It is among the keys that were not read yet.
     std::vector<std::string> open;
     for (const auto& [other, value] : values_)
       if (!value.known) open.push_back(other);

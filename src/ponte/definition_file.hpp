@@ -11,9 +11,9 @@ namespace twindeck::ponte {
 
 /// bridge.toml as a flat list of values by dotted path ("deck.foot.radius", "damper.0.units.1.s"; lists count from 0).
 ///
-/// Overrides (changes, variants) replace the value of a path that is there, nothing else, so an override cannot invent a key.
-/// Each value remembers its line, so that a message can name it after an override too, and whether somebody asked for it: what
-/// nobody asked for is an unknown key.
+/// An override (of a change or a variant) replaces the value of a path that exists. It cannot add a key. Each value keeps its
+/// line, so that a message names the line after an override too. Each value also keeps whether it was read: a value that was
+/// never read has an unknown key.
 class DefinitionFile {
  public:
   /// Interval of admissible values [in the unit asked for].
@@ -55,7 +55,7 @@ class DefinitionFile {
   void offer_number(const std::string& path, double value);
   /// Line of a value, or of a list's or table's first one by name; 0 if it is not there.
   [[nodiscard]] long line_of(const std::string& path) const;
-  /// @throws InputError for the first value that nobody asked for, naming the nearest known path
+  /// @throws InputError for the first value that was never read, naming the nearest known path
   void refuse_unknown() const;
 
   /// An InputError that names file, line and path.

@@ -36,8 +36,8 @@ EndFrame frame_of(const std::vector<DeckDefinition>& decks, bool north) {
   return frame;
 }
 
-/// Stiff members from a new node to the four corners of a face: they spread over solids, which know no rotations, what meets
-/// them at a point.
+/// Stiff members from a new node to the four corners of a face. Solids have no rotations, so these members spread the forces
+/// and moments at the node over the face.
 int connect_face(ModelBuilder& builder, const Vector3d& point_m, const std::vector<int>& corners) {
   const int node = builder.add_node(point_m);
   for (const int corner : corners) builder.add_element(fe::ElementType::beam, "rigid_connection", "rigid", {node, corner});

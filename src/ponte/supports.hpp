@@ -9,8 +9,8 @@
 
 namespace twindeck::ponte {
 
-/// Nodes of the two ends that the decks' bearings lean on: the middle of the end blocks' front faces; -1: they stand on the
-/// ground.
+/// Node at each end of the bridge that carries the decks' bearings: the middle of the end block's front face. -1: the bearings
+/// stand on the ground.
 struct EndNodes {
   int north = -1, south = -1;
 };

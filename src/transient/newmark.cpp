@@ -88,8 +88,8 @@ bool minimise_within_thresholds(const Eigen::VectorXd& shift_N, const Eigen::Mat
 
 }  // namespace
 
-// y -= A x, A in panels of rows, each by columns. Two widths of the processor; neither fuses products with sums, so that both
-// give the same bytes. The choice is made before ThreadSanitizer starts, which it does not survive.
+// y -= A x, with A in panels of rows, each by columns. It is compiled for two SIMD widths. Neither fuses products with sums, so
+// both give the same bytes. The width is chosen before ThreadSanitizer starts, which would crash: its builds have one width.
 #ifndef __SANITIZE_THREAD__
 [[gnu::target_clones("avx2", "default")]]
 #endif

@@ -17,7 +17,7 @@ namespace {
 
 MatrixXd times(const linalg::SparseMatrix& lower, const MatrixXd& x) { return lower.selfadjointView<Eigen::Lower>() * x; }
 
-/// Takes the modes' part out, in the inner product of M; twice, for the rounding of the first time.
+/// Removes the part in the span of the modes, in the inner product of M. The second pass removes the rounding of the first.
 MatrixXd without_modes(const linalg::SparseMatrix& mass, const MatrixXd& modes, MatrixXd x) {
   const MatrixXd weighted = times(mass, modes);
   for (int pass = 0; pass < 2; ++pass) x -= modes * (weighted.transpose() * x);

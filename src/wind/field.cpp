@@ -72,7 +72,7 @@ Eigen::MatrixXd coherence_factor(const FieldDefinition& field, double f_Hz) {
   const Eigen::LLT<Eigen::MatrixXd> cholesky(gamma);
   if (cholesky.info() == Eigen::Success && cholesky.matrixLLT().diagonal().array().square().minCoeff() > least)
     return cholesky.matrixL();
-  // What is left of a point's unit variance once the points before it are known: the first with nothing left.
+  // The first point whose unit variance is all explained by the points before it.
   Index j = 1;
   while (j + 1 < gamma.rows()) {
     const Eigen::LLT<Eigen::MatrixXd> leading(gamma.topLeftCorner(j + 1, j + 1));

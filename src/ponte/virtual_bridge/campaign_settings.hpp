@@ -8,7 +8,7 @@ namespace twindeck::ponte {
 
 struct NamedMode {
   std::string name;            ///< "1", as in Table 4
-  double frequency_Hz = 0.0;   ///< undamped, that the corrections bring about
+  double frequency_Hz = 0.0;   ///< undamped; the corrections are fitted to it
   double damping_ratio = 0.0;  ///< imposed without dampers
   long deck_mode =
       0;  ///< what calibration starts from: position among the uncorrected bridge's modes that are not mostly stays, from 1

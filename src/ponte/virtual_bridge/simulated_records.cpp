@@ -21,7 +21,7 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-constexpr double kWarmUp_s = 100.0;  // ten times as long as the longest-lived mode takes to forget its start by a factor 1/e
+constexpr double kWarmUp_s = 100.0;  // ten times the time in which the motion of the least damped mode decays to 1/e
 
 std::vector<int> nodes_of(const BridgeState& state, const std::vector<sensors::LayoutPoint>& points) {
   return sensors::nodes_at(state.chains.model, each_of(points, &sensors::LayoutPoint::x_m), 0.05);
@@ -266,7 +266,7 @@ TrueModes true_modes(const ConditionModel& model, const CampaignSettings& settin
   // Shares of the undamped modes in the shape: exact for the stays', as modes are orthogonal in M.
   const MatrixXd share = out.shapes.cwiseAbs2();
   out.stay_share = share.topRows(model.n_modes).transpose() * model.state->stay_share;
-  // Only what moves the decks and still is at least a fifth the old mode keeps its name.
+  // A mode keeps its name only if it moves the decks and at least a fifth of it is the old mode.
   constexpr double kLeastShare = 0.2;
   const Eigen::RowVectorXd moves_decks = (out.stay_share.transpose().array() < 0.5).cast<double>();
   const MatrixXd named = share(model.state->named, Eigen::all).array().rowwise() * moves_decks.array();

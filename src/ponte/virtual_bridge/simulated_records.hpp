@@ -23,9 +23,9 @@ struct ConditionModel {
   std::vector<std::string> damper_names;
   std::vector<transient::SlidingDamper> dampers;  ///< empty where none are fitted
   Eigen::MatrixXd at_dampers;                     ///< (n_dampers × r)
-  /// (n_modes × n_loads) modal loads of loads of 1 where they act: nodes of decks, mast and stays, three directions each, in
-  /// the order of the layout and of the stays' names; times their density [N/sqrt(Hz)]. Drawn there, a record hangs neither on
-  /// signs of modes nor on how modes of one frequency are turned.
+  /// (n_modes × n_loads) modal loads of unit loads, times their density [N/sqrt(Hz)]: at nodes of decks, mast and stays, in
+  /// three directions each, in the order of the layout and of the stays' names. Random numbers are drawn at the nodes, so that
+  /// a record depends neither on signs of modes nor on the basis of a repeated frequency.
   Eigen::MatrixXd loads;
   Eigen::MatrixXd load_covariance;  ///< (r × r) of the modal loads per Hz, one-sided [N²/Hz over kg]
 };

@@ -20,7 +20,7 @@ namespace {
 
 constexpr double kMostlyAcross =
     0.5;                          ///< [-] of a mode's kinetic energy: a mode that moves across the chord has most of it there
-constexpr double kWarmUp = 10.0;  ///< times 1 / (zeta omega): what the start was has faded by e^-10
+constexpr double kWarmUp = 10.0;  ///< times 1 / (zeta omega): the initial motion has decayed by e^-10
 
 constexpr int kPieces = 96;  // the fifth mode is then within 1e-6 of the continuous string's
 constexpr Index kModes = 5;
@@ -81,7 +81,7 @@ void solve(const Chain& chain, double pull_N, VectorXd& omega, MatrixXd& shapes)
   Index found = 0;
   for (Index j = 0; j < phi.cols() && found < kModes; ++j) {
     const VectorXd across = phi.col(j)(Eigen::seqN(1, n, 2));
-    // Those that go along the chord lie higher.
+    // Modes that move along the chord have higher frequencies.
     if (across.squaredNorm() * piece_kg < kMostlyAcross) continue;
     omega[found] = std::sqrt(eig.eigenvalues()[j]);
     shapes.col(found++) = across;
@@ -116,8 +116,8 @@ StayRecord stay_record(const fe::Model& model, const StayTest& test, const Campa
   record.direction = chain.across;
   const Eigen::RowVectorXd seen = shapes.row(sensor - 1);
 
-  // Independent forces on the inner nodes; ten times the memory of the slowest mode goes before the record.
-  // Eight steps a sample. The trapezoidal rule lengthens periods; it is given the frequencies for which it has the wanted ones.
+  // Independent forces on the inner nodes. The warm-up is ten times the decay time of the slowest mode.
+  // Eight steps a sample. The trapezoidal rule lengthens periods, so it gets frequencies that come out as the wanted ones.
   constexpr long kSubsteps = 8;
   const double step_s = 1.0 / (settings.rate_Hz * static_cast<double>(kSubsteps));
   const VectorXd shortened = (0.5 * step_s * omega.array()).tan() * (2.0 / step_s);

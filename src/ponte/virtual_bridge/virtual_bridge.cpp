@@ -28,8 +28,8 @@ constexpr double kDeckMode = 0.5;         ///< [-] of the kinetic energy in stay
 constexpr double kNeverPaired = 1e3;      ///< a distance in ln f beyond any between two modes
 constexpr double kSensorAtNode_m = 0.05;  ///< a sensor is at a node that is this near: the layout prints centimetres
 
-/// Every [[damper]] of the configuration belongs to a type of the bridge's definition, and stands once; where dampers are
-/// fitted, every type has one.
+/// Checks that each [[damper]] of the configuration names another type of the bridge's definition, and, if a condition has
+/// dampers, that every type has a [[damper]].
 void check_damper_types(const CampaignSettings& settings, const fe::Model& model) {
   const std::string prefix = "damper_";
   std::set<std::string> types, seen;
@@ -51,7 +51,7 @@ void check_damper_types(const CampaignSettings& settings, const fe::Model& model
       throw InputError({"", 0, "damper"}, "has no table for type " + type, "add [[damper]] with its mount and friction");
 }
 
-/// One mode each, pairs of least distance first; modes that are mostly stays are not looked at.
+/// Assigns a mode to each named one, the nearest pairs first. Modes that are mostly stays are not used.
 std::vector<Index> nearest_named(const BridgeState& state, const CampaignSettings& settings) {
   const Index n = std::ssize(settings.named), m = state.modes.frequency_Hz.size();
   MatrixXd distance(n, m);
@@ -77,7 +77,7 @@ std::vector<Index> nearest_named(const BridgeState& state, const CampaignSetting
 /// Refuses corrections that were found for other frequencies or for another bridge. @param state  with the corrections,
 /// untouched by temperature
 void refuse_stale_corrections(const CampaignSettings& settings, const BridgeState& state) {
-  constexpr double kAllowed = 0.002;  // [-] ten times what --calibrate ends at: rounding and a mode that turns do not reach it
+  constexpr double kAllowed = 0.002;  // [-] ten times the error at which --calibrate ends, above rounding and turning modes
   if (settings.corrections.empty()) return;
   for (std::size_t i = 0; i < settings.named.size(); ++i) {
     const NamedMode& wanted = settings.named[i];
@@ -114,7 +114,7 @@ void add_parameter(fe::Model& model, const std::string& name, fe::Target target,
 ///
 ///     E_foot_top_chord_1 (Young's modulus),   m_foot_nonstructural_mass_1 (factor),   …
 ///
-/// Stretches are alike north and south. This is how members come out of a workshop and a site: no two stretches the same.
+/// Stretches are alike north and south. They stand for the scatter of fabrication and construction between stretches.
 /// Values stay as they are until the parameters are changed.
 /// @param zones  >= 1
 fe::Model with_zoned_members(fe::Model model, int zones) {
@@ -181,7 +181,7 @@ BridgeState solve_bridge(const VirtualBridge& bridge, const CampaignSettings& se
   return state;
 }
 
-/// The modes that calibration starts from: the so many-th of those with less than half of their kinetic energy in the stays.
+/// The modes that calibration starts from, by position among those with less than half of their kinetic energy in the stays.
 std::vector<Index> starting_modes(const BridgeState& state, const CampaignSettings& settings) {
   std::vector<Index> deck;
   for (Index j = 0; j < state.stay_share.size(); ++j)
@@ -279,7 +279,7 @@ MatrixXd at_channels(const BridgeState& state, const MatrixXd& x, const std::vec
 
 BridgeTuning tune(const VirtualBridge& bridge, const CampaignSettings& settings, const Reporter& reporter) {
   constexpr int kSteps = 40;
-  constexpr double kLongestStep = 0.08;  // of a logarithm: further, modes pass each other unseen
+  constexpr double kLongestStep = 0.08;  // of a logarithm: in a longer step modes may change places unnoticed
   constexpr double kGood = 2e-4;         // a tenth of the 0.2 % allowed
   const Index n = std::ssize(settings.named), p = bridge.uncorrected.size();
   BridgeTuning found{bridge.uncorrected, VectorXd::Zero(n), {false, "no step was made"}};

@@ -68,7 +68,7 @@ struct BridgeState {
                                           const std::vector<sensors::LayoutChannel>& channels);
 
 /// Fits corrections so that the named frequencies are the wanted ones: regularised Gauss-Newton on ln f with analytic
-/// derivatives, logarithms of the corrections as small as can be. Pulls are found anew at every step.
+/// derivatives, which keeps the logarithms of the corrections small. Pulls are found anew at every step.
 /// @return parameters; status not converged if a frequency is off by more than a tenth of the 0.2 % allowed
 struct BridgeTuning {
   Eigen::VectorXd theta;
