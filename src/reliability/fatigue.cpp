@@ -6,27 +6,12 @@
 
 namespace twindeck::reliability {
 
-using Eigen::VectorXd;
-
 namespace {
 
 /// Cycles at the category's range (EN 1993-1-11, 9.2).
 constexpr double kCategoryCycles = 2e6;
 /// Ranges above this many standard deviations hold less than 1e-12 of any damage.
 constexpr double kLargestRange = 20.0;
-
-std::vector<double> turning_points(const Eigen::Ref<const VectorXd>& history) {
-  std::vector<double> points;
-  for (const double value : history) {
-    if (!points.empty() && value == points.back()) continue;
-    const std::size_t n = points.size();
-    if (n >= 2 && (points[n - 1] - points[n - 2]) * (value - points[n - 1]) > 0.0)
-      points.back() = value;
-    else
-      points.push_back(value);
-  }
-  return points;
-}
 
 /// Mean damage of a cycle whose range has this density.
 template <typename Density>
@@ -39,37 +24,9 @@ double mean_damage(const SpectralMoments& moments, const FatigueCurve& curve, co
 
 }  // namespace
 
-std::vector<Cycle> rainflow(const Eigen::Ref<const VectorXd>& history) {
-  std::vector<Cycle> cycles;
-  std::vector<double> stack;  // points not yet counted; the first is the start of the count
-  for (const double point : turning_points(history)) {
-    stack.push_back(point);
-    while (stack.size() >= 3) {
-      const std::size_t n = stack.size();
-      const double latest = std::abs(stack[n - 1] - stack[n - 2]), before = std::abs(stack[n - 2] - stack[n - 3]);
-      if (latest < before) break;
-      if (n == 3) {  // the range includes the start: half a cycle
-        cycles.push_back({before, 0.5});
-        stack.erase(stack.begin());
-      } else {
-        cycles.push_back({before, 1.0});
-        stack.erase(stack.end() - 3, stack.end() - 1);
-      }
-    }
-  }
-  for (std::size_t i = 0; i + 1 < stack.size(); ++i) cycles.push_back({std::abs(stack[i + 1] - stack[i]), 0.5});
-  return cycles;
-}
-
 double FatigueCurve::damage(double range_Pa) const {
   const double ratio = range_Pa / category_Pa;
   return std::pow(ratio, ratio >= 1.0 ? slope_above : slope_below) / kCategoryCycles;
-}
-
-double damage(const std::vector<Cycle>& cycles, const FatigueCurve& curve) {
-  double sum = 0.0;
-  for (const Cycle& cycle : cycles) sum += cycle.count * curve.damage(cycle.range);
-  return sum;
 }
 
 double dirlik_density(const SpectralMoments& moments, double range) {

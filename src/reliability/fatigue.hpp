@@ -1,20 +1,8 @@
 #pragma once
 
-#include <Eigen/Core>
-#include <vector>
-
 #include "reliability/crossings.hpp"
 
 namespace twindeck::reliability {
-
-/// Cycles of one range in a history: 1, or 0.5 for a half cycle.
-struct Cycle {
-  double range = 0.0, count = 1.0;
-};
-/// Rainflow count of a history.
-/// @param history (n) any unit; its turning points are taken here
-/// Reference: ASTM E1049-85 (2017), 5.4.4.
-[[nodiscard]] std::vector<Cycle> rainflow(const Eigen::Ref<const Eigen::VectorXd>& history);
 
 /// Two-slope curve of a tension component: N cycles of range S are endured with N (S/category)^m = 2e6, m = slope_above for S
 /// >= category and slope_below under it. Reference: EN 1993-1-11:2006, 9.2 and table 9.1 (slopes 4 and 6, categories 105 to 160
@@ -25,9 +13,6 @@ struct FatigueCurve {
   /// Share of the life that one cycle takes [-].
   [[nodiscard]] double damage(double range_Pa) const;
 };
-
-/// Palmgren and Miner's sum over counted cycles [-].
-[[nodiscard]] double damage(const std::vector<Cycle>& cycles, const FatigueCurve& curve);
 
 /// Mean damage per second of a stationary Gaussian stress, by Dirlik's density of rainflow ranges. Against counted cycles it is
 /// within 5 % for one band and about 9 % low for two separate modes (slope 4); that is the density's own error, since other

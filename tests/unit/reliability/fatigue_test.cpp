@@ -7,11 +7,60 @@
 #include <cmath>
 #include <map>
 #include <numbers>
+#include <vector>
 
 #include "core/random.hpp"
 
 namespace twindeck::reliability {
 namespace {
+
+/// Cycles of one range in a history: 1, or 0.5 for a half cycle.
+struct Cycle {
+  double range = 0.0, count = 1.0;
+};
+
+std::vector<double> turning_points(const Eigen::Ref<const Eigen::VectorXd>& history) {
+  std::vector<double> points;
+  for (const double value : history) {
+    if (!points.empty() && value == points.back()) continue;
+    const std::size_t n = points.size();
+    if (n >= 2 && (points[n - 1] - points[n - 2]) * (value - points[n - 1]) > 0.0)
+      points.back() = value;
+    else
+      points.push_back(value);
+  }
+  return points;
+}
+
+/// Rainflow count of a history (n), in any unit. Reference: ASTM E1049-85 (2017), 5.4.4.
+std::vector<Cycle> rainflow(const Eigen::Ref<const Eigen::VectorXd>& history) {
+  std::vector<Cycle> cycles;
+  std::vector<double> stack;  // points not yet counted; the first is the start of the count
+  for (const double point : turning_points(history)) {
+    stack.push_back(point);
+    while (stack.size() >= 3) {
+      const std::size_t n = stack.size();
+      const double latest = std::abs(stack[n - 1] - stack[n - 2]), before = std::abs(stack[n - 2] - stack[n - 3]);
+      if (latest < before) break;
+      if (n == 3) {  // the range includes the start: half a cycle
+        cycles.push_back({before, 0.5});
+        stack.erase(stack.begin());
+      } else {
+        cycles.push_back({before, 1.0});
+        stack.erase(stack.end() - 3, stack.end() - 1);
+      }
+    }
+  }
+  for (std::size_t i = 0; i + 1 < stack.size(); ++i) cycles.push_back({std::abs(stack[i + 1] - stack[i]), 0.5});
+  return cycles;
+}
+
+/// Palmgren and Miner's sum over counted cycles [-].
+double damage(const std::vector<Cycle>& cycles, const FatigueCurve& curve) {
+  double sum = 0.0;
+  for (const Cycle& cycle : cycles) sum += cycle.count * curve.damage(cycle.range);
+  return sum;
+}
 
 TEST(Rainflow, CountsTheExampleOfTheStandard) {
   Eigen::VectorXd history(9);
