@@ -108,11 +108,8 @@ bool ModalResiduals::weigh(Evaluation& evaluation, const std::vector<int>& posit
   const WeightedRows& rows = *definition_.weighted;
   evaluation.span = rows.spans_at(position);
   if (rows.has_shapes() && evaluation.span.empty()) return false;
-  const WeightedEvaluation weighted =
+  static_cast<Linearised&>(evaluation) =
       rows.evaluate({evaluation.frequency_Hz, at_channels(rows, modes_.shapes), evaluation.span, {}, {}}, false);
-  evaluation.residual = weighted.residual;
-  evaluation.predicted = weighted.predicted;
-  evaluation.scales = weighted.scales;
   return true;
 }
 

@@ -49,18 +49,14 @@ struct ResidualDefinition {
   [[nodiscard]] double residual_unit(const Eigen::MatrixXd& jacobian) const;
 };
 
-/// Residuals at one point.
-struct Evaluation {
-  bool valid = false;        ///< false: modes not found here (mechanism, lost mode); the step must be refused
-  Eigen::VectorXd x;         ///< (n_active)
-  Eigen::VectorXd residual;  ///< (n_residuals) (f_N - f_X)/f_X [-], 0 for a target that is not fitted; or weighed rows; last
-                             ///< the rows of the prior
-  Eigen::MatrixXd jacobian;  ///< (n_residuals × n_active) per normalised parameter; empty until asked for
+/// Residuals at one point: (f_N - f_X)/f_X [-] of each target, 0 for one that is not fitted, or those of the weighed rows. The
+/// rows of the prior come last.
+struct Evaluation : Linearised {
+  bool valid = false;                  ///< false: modes not found here (mechanism, lost mode); the step must be refused
+  Eigen::VectorXd x;                   ///< (n_active)
   Eigen::VectorXd frequency_Hz;        ///< (n_targets) of the followed modes
   std::vector<int> mode;               ///< (n_targets) positions of the followed modes
   Eigen::VectorXd mac;                 ///< (n_targets) with the reference modes
-  Eigen::VectorXd predicted;           ///< (n_residuals) of weighed rows, see WeightedEvaluation; else empty
-  int scales = 0;                      ///< likewise
   std::vector<std::vector<int>> span;  ///< (n_targets) positions of the modes that span each shape; empty without shapes
   [[nodiscard]] double cost() const { return 0.5 * residual.squaredNorm(); }
   [[nodiscard]] Eigen::VectorXd gradient() const { return jacobian.transpose() * residual; }

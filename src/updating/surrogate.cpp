@@ -265,7 +265,7 @@ bool CorrectedResiduals::weighted_at(const Modes& modes, const VectorXd& theta, 
                                      reduced_->shape_derivatives(theta, definition_.active[static_cast<std::size_t>(j)],
                                                                  modes.lambda, modes.z, modes.kept));
   }
-  const WeightedEvaluation weighted = rows.evaluate(computed, jacobian != nullptr);
+  const Linearised weighted = rows.evaluate(computed, jacobian != nullptr);
   residual = weighted.residual;
   if (jacobian != nullptr) *jacobian = weighted.jacobian;
   return true;

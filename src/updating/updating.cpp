@@ -130,7 +130,7 @@ void collect(const Search& search, std::vector<SearchEnd>& ends, const Eigen::Ve
   result.frequency_after_Hz = best.evaluation.frequency_Hz;
   result.mode_after = best.evaluation.mode;
   result.followed_mac = best.evaluation.mac;
-  result.at_optimum = {best.evaluation.residual, best.evaluation.jacobian, best.evaluation.predicted, best.evaluation.scales};
+  result.at_optimum = best.evaluation;
   if (best.result.converged) result.smooth = check_by_smooth_map(search, best);
   if (!best.result.converged)
     result.status = {
@@ -153,7 +153,7 @@ void weigh(Search& search, const MeasuredRows& rows, const Eigen::VectorXd& x0, 
   const Evaluation start = evaluate_at_start(search, x0);
   if (!start.valid) return;
   result.cost_before = start.cost();
-  result.at_start = {start.residual, start.jacobian, start.predicted, start.scales};
+  result.at_start = start;
 }
 
 // Sets the prior of the ranges. For relative frequencies it estimates the model error from the residual at the start.

@@ -84,14 +84,6 @@ struct CostElsewhere {
   bool valid = false;            ///< false: the modes were not found there
 };
 
-/// Residuals and their Jacobian at one point (see Evaluation).
-struct Linearised {
-  Eigen::VectorXd residual;   ///< (n_residuals); empty where the modes were not found
-  Eigen::MatrixXd jacobian;   ///< (n_residuals × n_active) per normalised parameter
-  Eigen::VectorXd predicted;  ///< (n_residuals) of weighed rows, in their units; else empty
-  int scales = 0;             ///< number of free scales of weighed shapes
-};
-
 struct UpdatingResult {
   Eigen::VectorXd theta;  ///< (n_parameters) all parameters, the inactive at their initial values
   std::vector<StartResult> starts;

@@ -106,7 +106,7 @@ MatrixXd WeightedRows::scale_columns(const MatrixXd& shape, const std::vector<st
   return columns;
 }
 
-WeightedEvaluation WeightedRows::evaluate(const ComputedRows& computed, bool with_jacobian) const {
+Linearised WeightedRows::evaluate(const ComputedRows& computed, bool with_jacobian) const {
   const auto n_active = with_jacobian ? computed.frequency_slope.cols() : Index{0};
   VectorXd given = VectorXd::Zero(value_.size());  // g, and its slopes below
   MatrixXd given_slope = MatrixXd::Zero(value_.size(), n_active);
@@ -119,7 +119,7 @@ WeightedEvaluation WeightedRows::evaluate(const ComputedRows& computed, bool wit
   const Span span(columns.cols() > 0 ? linalg::lower_solve(factor_, columns) : columns);
   const VectorXd whitened = linalg::lower_solve(factor_, MatrixXd(value_ - given));
 
-  WeightedEvaluation out;
+  Linearised out;
   out.scales = static_cast<int>(span.rank());
   out.residual = -span.outside(whitened);
   out.predicted = given;

@@ -37,12 +37,13 @@ struct ComputedRows {
   std::vector<Eigen::MatrixXd> shape_slope;  ///< (n_active) of (n_channels × n_modes) per normalised parameter
 };
 
-/// Residuals at one point, all in standard deviations.
-struct WeightedEvaluation {
-  Eigen::VectorXd residual;   ///< (n_residuals)
-  Eigen::MatrixXd jacobian;   ///< (n_residuals × n_active); empty if not asked for
-  Eigen::VectorXd predicted;  ///< (n_residuals) computed value of each row, shapes with their best scales, in the rows' units
-  int scales = 0;             ///< number of free scales that were fitted to the shapes
+/// Residuals and their Jacobian at one point. Those of weighed rows are in standard deviations.
+struct Linearised {
+  Eigen::VectorXd residual;   ///< (n_residuals); empty where the modes were not found
+  Eigen::MatrixXd jacobian;   ///< (n_residuals × n_active) per normalised parameter; empty if not asked for
+  Eigen::VectorXd predicted;  ///< (n_residuals) computed value of each weighed row, shapes with their best scales, in the rows'
+                              ///< units; else empty
+  int scales = 0;             ///< number of free scales that were fitted to the weighed shapes
 };
 
 /// Residuals of measured rows d with covariance Sigma = L L':
@@ -60,7 +61,7 @@ class WeightedRows {
   /// @param frequency_Hz (n_targets) measured  @param fitted (n_targets) whether the target's rows take part
   WeightedRows(std::shared_ptr<const MeasuredRows> measured, Eigen::VectorXd frequency_Hz, std::vector<bool> fitted);
 
-  [[nodiscard]] WeightedEvaluation evaluate(const ComputedRows& computed, bool with_jacobian) const;
+  [[nodiscard]] Linearised evaluate(const ComputedRows& computed, bool with_jacobian) const;
   /// The same without the rows of a target.
   [[nodiscard]] std::shared_ptr<const WeightedRows> without(std::size_t target) const;
   /// Number of residuals: the rows that take part.

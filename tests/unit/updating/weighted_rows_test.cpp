@@ -51,7 +51,7 @@ TEST(WeightedRows, ShapeResidualIsOneMinusMac) {
   rows.span = {{0}};
   rows.covariance = 0.04 * Eigen::MatrixXd::Identity(7, 7);
   const WeightedRows weighted(std::make_shared<const MeasuredRows>(rows), Eigen::VectorXd::Constant(1, 2.0), {true});
-  const WeightedEvaluation at = weighted.evaluate({Eigen::VectorXd::Constant(1, 2.1), shape, {{0}}, {}, {}}, false);
+  const Linearised at = weighted.evaluate({Eigen::VectorXd::Constant(1, 2.1), shape, {{0}}, {}, {}}, false);
   EXPECT_NEAR(at.residual(0), 0.1 / 0.2, 1e-12);
   const double mac = modal::mac(shape, measured)(0, 0);
   EXPECT_NEAR(at.residual.tail(6).squaredNorm(), (1.0 - mac) * measured.squaredNorm() / 0.04, 1e-10);
@@ -77,7 +77,7 @@ TEST(WeightedRows, ScalesPhasesAndRotationsInAClusterAreFree) {
     const std::complex<double> value = factor * shape(row.channel, row.target == 0 ? 3 : 1);
     row.value = row.imaginary ? value.imag() : value.real();
   }
-  const WeightedEvaluation at = exact.weighted().evaluate({exact.frequency, shape, span, {}, {}}, false);
+  const Linearised at = exact.weighted().evaluate({exact.frequency, shape, span, {}, {}}, false);
   EXPECT_LT(at.residual.norm(), 1e-10);
   EXPECT_EQ(at.scales, 2 + 4);
 }
