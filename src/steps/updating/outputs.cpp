@@ -32,11 +32,6 @@ std::optional<double> change_pct(double initial, double final_value) {
   return 100.0 * (final_value / initial - 1.0);
 }
 
-// Normalised as in the search: divided by the size of the initial value, or by the range where that is 0.
-double normalised(const fe::Parameter& parameter, double value) {
-  return value / (parameter.initial != 0.0 ? std::abs(parameter.initial) : parameter.upper - parameter.lower);
-}
-
 std::vector<std::string> with_parameter_names(std::vector<std::string> columns, const std::vector<fe::Parameter>& parameters,
                                               const std::vector<int>& active) {
   for (std::size_t j = 0; j < active.size(); ++j) columns.push_back(parameter_at(parameters, active, j).name);
@@ -111,8 +106,7 @@ void write_starts(const std::vector<fe::Parameter>& parameters, const std::vecto
                                    start.converged ? 1 : 0,
                                    optimum > 0 ? io::Cell(optimum) : io::Cell(""),
                                    start.message};
-    for (std::size_t j = 0; j < active.size(); ++j)
-      cells.emplace_back(normalised(parameter_at(parameters, active, j), start.theta(static_cast<Eigen::Index>(j))));
+    for (Index j = 0; j < start.theta.size(); ++j) cells.emplace_back(start.theta(j) / result.scale(j));
     csv.row(cells);
   }
   csv.save(file);
