@@ -19,22 +19,31 @@ StripBlock self_excited(const SectionAero& section, const Strip& strip, const Ya
   return {w * d.damping.cwiseProduct(scale), w * w * d.stiffness.cwiseProduct(scale)};
 }
 
+namespace {
+
+/// Factors of the rule times the wind's pressure on the strip's chord area [N].
+StaticFactor static_scale(const SectionAero& section, const Strip& strip, const YawRule& rule, double density_kg_m3,
+                          double speed_m_s) {
+  const StaticFactor factor = static_factor(rule, strip.yaw_rad);
+  const double q_area = 0.5 * density_kg_m3 * speed_m_s * speed_m_s * section.chord_m * strip.length_m;
+  return {q_area * factor.force, q_area * factor.moment};
+}
+
+}  // namespace
+
 Eigen::Vector3d static_force(const SectionAero& section, const Strip& strip, const YawRule& rule, double density_kg_m3,
                              double speed_m_s, Equations equations) {
   const StaticCoefficients c = section.polar.at(strip.alpha_rad);
-  const StaticFactor factor = static_factor(rule, strip.yaw_rad);
-  const double q_area = 0.5 * density_kg_m3 * speed_m_s * speed_m_s * section.chord_m * strip.length_m;
+  const StaticFactor scale = static_scale(section, strip, rule, density_kg_m3, speed_m_s);
   const double arm = equations == Equations::as_printed ? 1.0 : section.chord_m;
-  return {q_area * factor.force * c.drag, q_area * factor.force * c.lift, q_area * factor.moment * arm * c.moment};
+  return {scale.force * c.drag, scale.force * c.lift, scale.moment * arm * c.moment};
 }
 
 Eigen::Vector3d static_slope(const SectionAero& section, const Strip& strip, const YawRule& rule, double density_kg_m3,
                              double speed_m_s) {
   const StaticCoefficients c = section.polar.at(strip.alpha_rad);
-  const StaticFactor factor = static_factor(rule, strip.yaw_rad);
-  const double q_area = 0.5 * density_kg_m3 * speed_m_s * speed_m_s * section.chord_m * strip.length_m;
-  return {q_area * factor.force * c.drag_slope, q_area * factor.force * c.lift_slope,
-          q_area * factor.moment * section.chord_m * c.moment_slope};
+  const StaticFactor scale = static_scale(section, strip, rule, density_kg_m3, speed_m_s);
+  return {scale.force * c.drag_slope, scale.force * c.lift_slope, scale.moment * section.chord_m * c.moment_slope};
 }
 
 const std::vector<EquationDifference>& equation_differences() {
@@ -99,16 +108,6 @@ AeroelasticSystem::Block AeroelasticSystem::self_excited(double speed_m_s, doubl
     stiff.middleRows<3>(row).noalias() = block.stiffness * along_rule_.middleRows<3>(row);
   }
   return {along_rule_.transpose() * damped, along_rule_.transpose() * stiff};
-}
-
-Eigen::VectorXd AeroelasticSystem::static_force(double speed_m_s) const {
-  Eigen::VectorXd local(along_rule_.rows());
-  for (std::size_t i = 0; i < strips_.size(); ++i) {
-    const Strip& strip = strips_[i];
-    local.segment<3>(3 * static_cast<Eigen::Index>(i)) = aero::static_force(sections_[static_cast<std::size_t>(strip.section)],
-                                                                            strip, rule(strip), wind_.density_kg_m3, speed_m_s);
-  }
-  return along_rule_.transpose() * local;
 }
 
 Eigen::MatrixXd AeroelasticSystem::static_stiffness() const {

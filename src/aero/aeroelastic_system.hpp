@@ -78,8 +78,6 @@ class AeroelasticSystem {
   };
   /// Self-excited forces on the coordinates, harmonic at omega; zero without wind.
   [[nodiscard]] Block self_excited(double speed_m_s, double omega_rad_s) const;
-  /// Static wind forces (Eq. 7) on the coordinates. @return (m)
-  [[nodiscard]] Eigen::VectorXd static_force(double speed_m_s) const;
   /// Static aerodynamic stiffness at 1 m/s, slopes of the polars on alpha: grows with V². @return (m × m)
   [[nodiscard]] Eigen::MatrixXd static_stiffness() const;
   /// The same system of the coordinates listed alone.

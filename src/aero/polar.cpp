@@ -31,22 +31,9 @@ Polar::Polar(std::vector<double> alpha_rad, std::vector<StaticCoefficients> rows
     throw InputError({source_, 0, "alpha_deg"}, "is empty or does not ascend", "give one row an angle of attack, ascending");
 }
 
-Polar Polar::linear(const StaticCoefficients& at_zero) {
-  Polar polar({0.0}, {at_zero}, "linear coefficients");
-  polar.linear_ = true;
-  return polar;
-}
-
-bool Polar::covers(double alpha) const { return linear_ || (alpha >= alpha_rad_.front() && alpha <= alpha_rad_.back()); }
+bool Polar::covers(double alpha) const { return alpha >= alpha_rad_.front() && alpha <= alpha_rad_.back(); }
 
 StaticCoefficients Polar::at(double alpha) const {
-  if (linear_) {
-    StaticCoefficients c = rows_.front();
-    c.drag += c.drag_slope * alpha;
-    c.lift += c.lift_slope * alpha;
-    c.moment += c.moment_slope * alpha;
-    return c;
-  }
   if (!covers(alpha))
     throw InputError({source_, 0, "alpha_deg"},
                      fmt::format("covers {:.6g} to {:.6g} degrees, {:.6g} is needed", alpha_rad_.front() * degrees,
@@ -59,8 +46,7 @@ StaticCoefficients Polar::at(double alpha) const {
 }
 
 Polar Polar::with_lift_slope_factor(double factor) const {
-  const bool has_zero = linear_ || (alpha_rad_.front() <= 0.0 && alpha_rad_.back() >= 0.0);
-  const double pivot = has_zero ? at(0.0).lift : rows_[rows_.size() / 2].lift;
+  const double pivot = covers(0.0) ? at(0.0).lift : rows_[rows_.size() / 2].lift;
   Polar turned = *this;
   for (StaticCoefficients& row : turned.rows_) {
     row.lift = pivot + factor * (row.lift - pivot);

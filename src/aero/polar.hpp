@@ -19,8 +19,6 @@ class Polar {
   /// @param alpha_rad  ascending, nose-up
   /// @param source     where the numbers came from, for messages
   Polar(std::vector<double> alpha_rad, std::vector<StaticCoefficients> rows, std::string source);
-  /// A section with linear coefficients: C(alpha) = C + C' alpha, at any angle.
-  static Polar linear(const StaticCoefficients& at_zero);
 
   /// @throws InputError  outside the table, naming its range
   [[nodiscard]] StaticCoefficients at(double alpha_rad) const;
@@ -35,7 +33,6 @@ class Polar {
   std::vector<double> alpha_rad_;
   std::vector<StaticCoefficients> rows_;
   std::string source_;
-  bool linear_ = false;
 };
 
 /// Flutter derivatives of quasi-steady theory, computed from a polar, in Zasso's form:

@@ -12,6 +12,7 @@
 #include "buffeting/response.hpp"
 #include "buffeting/spectral.hpp"
 #include "known_derivatives.hpp"
+#include "linear_polar.hpp"
 #include "verification_table.hpp"
 #include "wind/spectrum.hpp"
 
@@ -34,7 +35,7 @@ struct Beam {
     aero::StaticCoefficients c;
     c.lift_slope = slope;
     std::vector<aero::SectionAero> sections = {
-        {"beam", chord, aero::Polar::linear(c), std::make_shared<aero::ConstantZasso>(aero::Derivatives18{})}};
+        {"beam", chord, aero::linear_polar(c), std::make_shared<aero::ConstantZasso>(aero::Derivatives18{})}};
     const aero::Wind wind;
     std::vector<aero::Strip> strips;
     std::vector<aero::StripMotion> motions;
@@ -221,7 +222,7 @@ aero::AeroelasticSystem plate() {
   const Eigen::Vector3d axis(aero::nose_up(strip, Eigen::Vector3d::UnitX()), 0.0, 0.0);
   motion.block<3, 1>(3, 1) = axis / std::sqrt(kPlateInertia);
   return aero::AeroelasticSystem(structure,
-                                 {{"deck", kPlateChord_m, aero::Polar::linear(c), std::make_shared<BenchmarkPlate>()}}, {strip},
+                                 {{"deck", kPlateChord_m, aero::linear_polar(c), std::make_shared<BenchmarkPlate>()}}, {strip},
                                  {motion}, air, aero::everywhere(aero::published_yaw_rule("A")));
 }
 

@@ -13,6 +13,7 @@
 #include "aero/files/aero_data.hpp"
 #include "io/csv.hpp"
 #include "known_derivatives.hpp"
+#include "linear_polar.hpp"
 #include "verification_table.hpp"
 #include "wind_sections.hpp"
 
@@ -48,7 +49,7 @@ TEST(WindPublished, GallopingBeamMeetsItsClosedForm) {
     motions.push_back(motion({{0.0, std::sin(pi * x / length) / std::sqrt(m * length / 2), 0.0}}));
   }
   const aero::AeroelasticSystem system(structure({f}, xi),
-                                       {{"beam", B, aero::Polar::linear({0.1, 0, 0, 0, h1 - 0.1, 0}), derivatives}}, strips,
+                                       {{"beam", B, aero::linear_polar({0.1, 0, 0, 0, h1 - 0.1, 0}), derivatives}}, strips,
                                        motions, wind, aero::everywhere(aero::published_yaw_rule("A")));
   const double closed = 4 * m * 2 * pi * f * xi / (rho * B * std::abs(h1));
   const double found = critical_speed(system, speeds(1, 20, 1));
@@ -161,7 +162,7 @@ TEST(WindPublished, IabseFullBridgeWithTwelveModes) {
     motions.push_back(motion(columns));
   }
   const aero::AeroelasticSystem system(structure(frequency, 0.003),
-                                       {{"deck", 31, aero::Polar::linear({}), iabse_bridge_derivatives()}}, strips, motions,
+                                       {{"deck", 31, aero::linear_polar({}), iabse_bridge_derivatives()}}, strips, motions,
                                        wind, aero::everywhere(aero::published_yaw_rule("A")));
   const auto branches = follow_all(system, speeds(1, 72, 1));
   const double found = lowest_critical_point(system, branches).value().speed_m_s;
@@ -198,7 +199,7 @@ TEST(WindPublished, SimplySupportedThinPlate) {
   }
   // Coordinates of a reduced structure need no order.
   const aero::AeroelasticSystem system(structure(frequency, 0.005),
-                                       {{"plate", chord, aero::Polar::linear({}), std::make_shared<aero::FlatPlate>()}}, strips,
+                                       {{"plate", chord, aero::linear_polar({}), std::make_shared<aero::FlatPlate>()}}, strips,
                                        motions, wind, aero::everywhere(aero::published_yaw_rule("A")));
   const auto starts = aero::still_air_modes(system.structure());
   std::vector<aero::Branch> branches;
@@ -266,7 +267,7 @@ aero::AeroelasticSystem goland_wing() {
     for (int j = 0; j < 2 * n; ++j) columns.push_back({0.0, z(k, j) - (0.5 * b2 - elastic_axis) * a(k, j), a(k, j)});
     motions.push_back(motion(columns));
   }
-  return aero::AeroelasticSystem(s, {{"wing", b2, aero::Polar::linear({}), std::make_shared<aero::FlatPlate>()}}, strips,
+  return aero::AeroelasticSystem(s, {{"wing", b2, aero::linear_polar({}), std::make_shared<aero::FlatPlate>()}}, strips,
                                  motions, wind, aero::everywhere(aero::published_yaw_rule("A")));
 }
 

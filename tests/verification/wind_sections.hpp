@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "aero/follow_mode.hpp"
+#include "linear_polar.hpp"
 #include "test_places.hpp"
 
 /// Systems in wind that the verification cases share.
@@ -44,7 +45,7 @@ inline aero::AeroelasticSystem section_model(const aero::ReducedStructure& s, do
                                              const aero::StaticCoefficients& coefficients = {}) {
   const aero::Wind wind{density_kg_m3, Eigen::Vector3d::UnitY()};
   const aero::Strip strip = aero::make_strip("section", 0, 0.0, 1.0, Eigen::Vector3d::Zero(), Eigen::Vector3d::UnitX(), wind);
-  return {s,       {{"section", chord_m, aero::Polar::linear(coefficients), std::move(derivatives)}},
+  return {s,       {{"section", chord_m, aero::linear_polar(coefficients), std::move(derivatives)}},
           {strip}, {motion(y_z_alpha)},
           wind,    aero::everywhere(aero::published_yaw_rule("A"))};
 }

@@ -12,6 +12,7 @@
 #include "core/error.hpp"
 #include "io/csv.hpp"
 #include "known_derivatives.hpp"
+#include "linear_polar.hpp"
 #include "test_places.hpp"
 #include "verification_table.hpp"
 #include "wind_sections.hpp"
@@ -50,7 +51,7 @@ aero::AeroelasticSystem yawed_strips(const std::vector<double>& yaw_rad, const a
     motions.push_back(motion({{0, amplitude, 0}}));
   }
   return {structure({0.73}, 0.005),
-          {{"deck", 4.5, aero::Polar::linear({0.2, -0.06, 0.02, 0, -5.8, 0.25}), std::move(derivatives)}},
+          {{"deck", 4.5, aero::linear_polar({0.2, -0.06, 0.02, 0, -5.8, 0.25}), std::move(derivatives)}},
           strips,
           motions,
           wind,
@@ -258,7 +259,7 @@ TEST(WindStability, MaxwellUnitsInStillAirAreThoseOfTheStateMatrix) {
   EXPECT_LT(std::abs((l * l + 4.0) * (3.0 + 2.0 * l) + 6.0 * l), 1e-12);
   // The iteration on the same structure, started elsewhere, finds the same root.
   const aero::Wind wind{1.25, Eigen::Vector3d::UnitY()};
-  const aero::AeroelasticSystem still(s, {{"deck", 1, aero::Polar::linear({}), std::make_shared<PowerLaw>(0, 0)}},
+  const aero::AeroelasticSystem still(s, {{"deck", 1, aero::linear_polar({}), std::make_shared<PowerLaw>(0, 0)}},
                                       {aero::make_strip("deck", 0, 0, 1, {0, 0, 0}, Eigen::Vector3d::UnitX(), wind)},
                                       {motion({{0, 1, 0}})}, wind, aero::everywhere(aero::published_yaw_rule("A")));
   aero::ComplexMode start = modes[0];

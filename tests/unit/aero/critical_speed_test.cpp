@@ -8,6 +8,7 @@
 #include "aero/polar.hpp"
 #include "core/angle.hpp"
 #include "known_derivatives.hpp"
+#include "linear_polar.hpp"
 #include "verification/wind_sections.hpp"
 
 namespace {
@@ -49,7 +50,7 @@ aero::AeroelasticSystem heaving_strips(const std::vector<HeavingStrip>& list, co
                                       {std::cos(s.yaw_rad), -std::sin(s.yaw_rad), 0}, wind));
     motions.push_back(wind_test::motion({{0, s.z, 0}}));
   }
-  const aero::Polar polar = aero::Polar::linear(c);
+  const aero::Polar polar = aero::linear_polar(c);
   return {wind_test::structure({0.7}, 0.005),
           {{"foot", 4.5, polar, derivatives}, {"cycle", 5.0, polar, derivatives}},
           strips,
@@ -175,7 +176,7 @@ TEST(DenHartog, SumsStripsOfBothDecks) {
 TEST(DenHartog, IsTheCriticalSpeedOfQuasiSteadyDerivatives) {
   const aero::StaticCoefficients c{0.2, 0.5, 0, 0, -3.0, 0};
   const auto system = heaving_strips({{"foot", 0, 2.0, 0.03}, {"cycle", 0, 3.0, -0.02}},
-                                     std::make_shared<aero::QuasiSteady>(aero::Polar::linear(c), aero::QuasiSteady::Arms{}), c);
+                                     std::make_shared<aero::QuasiSteady>(aero::linear_polar(c), aero::QuasiSteady::Arms{}), c);
   const double expected = aero::den_hartog_speed(system, 0).value();
   const auto found = aero::critical_point(system, first_branch(system, {0.5 * expected, 1.5 * expected}));
   ASSERT_TRUE(found.has_value());

@@ -9,6 +9,7 @@
 
 #include "aero/polar.hpp"
 #include "known_derivatives.hpp"
+#include "linear_polar.hpp"
 
 namespace {
 
@@ -31,7 +32,7 @@ TEST(Derivatives, EachOfEighteenHasItsOwnPlaceAndReturns) {
 // D = ½ρB C_D |V_rel|² and its lift, linearised by hand for a section at zero angle: ẏ reduces the wind, ż turns it downwards.
 TEST(Derivatives, QuasiSteadyForcesAreThoseOfTheRelativeWind) {
   const aero::StaticCoefficients c{0.2, -0.06, 0.02, 0.3, -5.86, 0.25};
-  const aero::QuasiSteady derivatives{aero::Polar::linear(c), {}};
+  const aero::QuasiSteady derivatives{aero::linear_polar(c), {}};
   const double V = 20.0, B = 4.5, omega = 4.6, rate = 1e-4;
   const aero::DerivativeBlock d = derivatives.at(0.0, V / (omega * B));
   const auto force = [&](double ydot, double zdot) {

@@ -9,6 +9,7 @@
 #include "core/angle.hpp"
 #include "core/error.hpp"
 #include "linalg/cholesky.hpp"
+#include "linear_polar.hpp"
 #include "unit/aero/beam_deck.hpp"
 
 namespace {
@@ -22,7 +23,7 @@ double flexibility(const aero::ReducedStructure& s, const Eigen::VectorXd& d) {
 }
 
 aero::DeckAerodynamics one_deck(double h1 = -2.0) {
-  return {aero::Polar::linear({0.2, -0.1, 0.03, 0.4, -3.0, 0.5}), BeamDeck::heave_table(h1)};
+  return {aero::linear_polar({0.2, -0.1, 0.03, 0.4, -3.0, 0.5}), BeamDeck::heave_table(h1)};
 }
 
 // A level scales the self-excited forces of tables and leaves their polar. Quasi-steady, it scales the slope of lift.

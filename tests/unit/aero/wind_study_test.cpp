@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "known_derivatives.hpp"
+#include "linear_polar.hpp"
 #include "unit/aero/beam_deck.hpp"
 #include "verification/wind_sections.hpp"
 
@@ -35,7 +36,7 @@ aero::WindModel heaving_model(double yaw_rad = 0.0) {
 aero::FittedSet fitted_heave(const std::string& name = "standin") {
   return {name,
           1.0,
-          {{"deck", study_chord, aero::Polar::linear({0.2, 0, 0, 0, study_h1 - 0.2, 0}), BeamDeck::heave_table(study_h1)}}};
+          {{"deck", study_chord, aero::linear_polar({0.2, 0, 0, 0, study_h1 - 0.2, 0}), BeamDeck::heave_table(study_h1)}}};
 }
 
 aero::WindSettings study_settings() {
@@ -158,7 +159,7 @@ TEST(StaticResponse, IsThatOfTheBeamUnderItsStripForces) {
   settings.design_speed_m_s = 30.0;
   const aero::WindModel model = aero::prepare_wind_model(settings, loaded);
   const aero::StaticCoefficients c{0.2, -0.3, 0.05, 0, 0, 0};
-  const aero::FittedSet set{"standin", 1.0, {{"deck", deck.chord, aero::Polar::linear(c), BeamDeck::heave_table(-1.0)}}};
+  const aero::FittedSet set{"standin", 1.0, {{"deck", deck.chord, aero::linear_polar(c), BeamDeck::heave_table(-1.0)}}};
   linalg::Cholesky factor;
   ASSERT_TRUE(factor.factorize(loaded.system.stiffness(loaded.theta)).converged);
   const aero::StaticResponse found =

@@ -2,6 +2,7 @@
 
 #include "buffeting/bridge_in_wind.hpp"
 #include "known_derivatives.hpp"
+#include "linear_polar.hpp"
 #include "unit/aero/beam_deck.hpp"
 
 /// The simply supported beam of the tests of aero in turbulent wind.
@@ -33,7 +34,7 @@ struct GustyBeam {
   /// Static coefficients times a factor, and no self-excited forces.
   [[nodiscard]] std::vector<aero::SectionAero> sections(double factor = 1.0) const {
     const aero::StaticCoefficients c{0.2 * factor, -0.1 * factor, 0.0, 0.0, 3.0 * factor, 0.2 * factor};
-    return {{"deck", deck.chord, aero::Polar::linear(c), std::make_shared<aero::ConstantZasso>(aero::Derivatives18{})}};
+    return {{"deck", deck.chord, aero::linear_polar(c), std::make_shared<aero::ConstantZasso>(aero::Derivatives18{})}};
   }
   [[nodiscard]] buffeting::BridgeInWind bridge(double factor = 1.0, bool damper = false) const {
     fe::Model model = deck.model();

@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "known_derivatives.hpp"
+#include "linear_polar.hpp"
 
 namespace twindeck::buffeting {
 namespace {
@@ -21,7 +22,7 @@ aero::SectionAero section() {
   c.drag_slope = 0.4;
   c.lift_slope = -3.0;
   c.moment_slope = 0.5;
-  return {"deck", 4.5, aero::Polar::linear(c), std::make_shared<aero::ConstantZasso>(aero::Derivatives18{})};
+  return {"deck", 4.5, aero::linear_polar(c), std::make_shared<aero::ConstantZasso>(aero::Derivatives18{})};
 }
 
 aero::Strip strip_at(double yaw_rad, const aero::Wind& wind) {
