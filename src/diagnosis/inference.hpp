@@ -2,7 +2,6 @@
 
 #include <Eigen/Core>
 #include <memory>
-#include <string>
 #include <vector>
 
 #include "diagnosis/prediction/feature_map.hpp"

@@ -22,7 +22,6 @@ namespace twindeck::diagnosis {
 namespace {
 
 using Eigen::Index;
-using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
 constexpr double kUnitOfKinks = 0.0025;  // [-] of a scale of 1 (law_frame.hpp)

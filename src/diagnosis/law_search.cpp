@@ -3,9 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 #include <map>
-#include <numbers>
 #include <set>
 
 #include "core/parallel.hpp"
@@ -13,14 +11,11 @@
 #include "diagnosis/law_openings.hpp"
 #include "diagnosis/law_screen.hpp"
 #include "diagnosis/law_sets.hpp"
-#include "linalg/dense.hpp"
 
 namespace twindeck::diagnosis {
 
 namespace {
 
-using Eigen::Index;
-using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
 constexpr std::size_t kLeading = 6, kOfFewPlaces = 6;

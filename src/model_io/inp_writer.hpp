@@ -5,7 +5,6 @@
 #include <vector>
 
 #include "fe/assembly.hpp"
-#include "fe/elements.hpp"
 #include "model_io/inp.hpp"
 #include "model_io/inp_expanded_beam.hpp"
 

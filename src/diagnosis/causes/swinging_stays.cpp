@@ -121,8 +121,6 @@ double frequency_scatter(const std::vector<MeasuredShape>& measured, const Visib
 
 namespace {
 
-using Eigen::VectorXd;
-
 constexpr double twins_within = 0.02;  ///< [-] of ln f: mirror images differ by the scatter of their forces
 
 std::vector<const SwingingCable*> of(const std::vector<SwingingCable>& cables, const std::vector<int>& chosen) {

@@ -1,5 +1,4 @@
 #include <algorithm>
-#include <cstdint>
 #include <utility>
 
 #include "diagnosis/prediction/predictor.hpp"
@@ -12,7 +11,6 @@ namespace {
 
 using Eigen::Index;
 using Eigen::MatrixXd;
-using Eigen::VectorXd;
 constexpr double kUnknown = -1e300;  ///< in the key of a state: unknown value of the condition
 
 }  // namespace

@@ -2,9 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <map>
-#include <set>
 
 #include "core/error.hpp"
 #include "matching/shapes_at_sensors.hpp"

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <Eigen/Sparse>
-#include <string>
 #include <vector>
 
 #include "diagnosis/reduction/compact_matrix.hpp"

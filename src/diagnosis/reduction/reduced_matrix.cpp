@@ -1,6 +1,5 @@
 #include "diagnosis/reduction/reduced_matrix.hpp"
 
-#include <algorithm>
 #include <utility>
 
 #include "core/error.hpp"
@@ -12,7 +11,6 @@ namespace {
 
 using Eigen::Index;
 using Eigen::MatrixXd;
-using Eigen::VectorXd;
 
 constexpr Index kAtOnce = 256;  ///< columns of V that are projected together; their images take n × 256 numbers
 

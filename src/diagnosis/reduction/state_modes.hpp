@@ -1,7 +1,6 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <complex>
 
 #include "diagnosis/reduction/structure_state.hpp"
 #include "diagnosis/reduction/undamped_modes.hpp"

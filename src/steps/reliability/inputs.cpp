@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
-#include <functional>
 
 #include "buffeting/bridge_in_wind.hpp"
 #include "core/error.hpp"
