@@ -86,7 +86,7 @@ std::optional<double> modelled_change(const FeatureMap& model, const std::string
   double f[2] = {0.0, 0.0};
   for (std::size_t m = 0; asked.valid && m < model.measured_modes().size(); ++m) {
     const MeasuredMode& measured = model.measured_modes()[m];
-    const auto& on = model.features().conditions[static_cast<std::size_t>(measured.condition)].dampers_on;
+    const auto& on = model.features().condition_of(measured).dampers_on;
     if (measured.label != mode || !on || asked.paired[m] < 0) continue;
     double& of_state = f[*on ? 1 : 0];
     if (!(of_state > 0.0)) of_state = asked.frequency_Hz[m];
@@ -99,7 +99,7 @@ std::optional<double> modelled_change(const FeatureMap& model, const std::string
 std::vector<Finding> damper_findings(const FeatureSet& features, const Places& places, const FeatureMap* model) {
   std::map<std::string, std::array<double, 2>> f, deviation;
   for (const Row& row : features.rows) {
-    const auto& on = features.conditions[static_cast<std::size_t>(row.condition)].dampers_on;
+    const auto& on = features.condition_of(row).dampers_on;
     if (row.type != RowType::frequency || !on) continue;
     const std::size_t k = *on ? 1 : 0;
     if (f[row.mode][k] > 0.0) continue;

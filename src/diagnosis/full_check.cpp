@@ -250,7 +250,7 @@ std::vector<int> paired_positions(const FeatureMap& map, const Fit& fit, const s
   std::set<int> out;
   const auto& modes = map.measured_modes();
   for (std::size_t m = 0; m < std::min(modes.size(), fit.all.paired.size()); ++m) {
-    const auto& condition = map.features().conditions[static_cast<std::size_t>(modes[m].condition)];
+    const auto& condition = map.features().condition_of(modes[m]);
     if (condition.state == state && fit.all.paired[m] >= 0) out.insert(fit.all.paired[m]);
   }
   return {out.begin(), out.end()};

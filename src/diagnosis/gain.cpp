@@ -33,7 +33,7 @@ std::map<std::string, HeldOutBlock> held_out_blocks(const Inference& inference, 
   for (const int r : inference.held_out()) {
     if (open.contains(r)) continue;
     const Row& row = features.rows[static_cast<std::size_t>(r)];
-    const std::string& condition = features.conditions[static_cast<std::size_t>(row.condition)].name;
+    const std::string& condition = features.condition_of(row).name;
     HeldOutBlock& block = by_name[condition + "/" + (row.mode.empty() ? name_of(row.type) : row.mode)];
     block.before += before[r] * before[r];
     block.after += after[r] * after[r];
@@ -48,7 +48,7 @@ std::string list_of_held_out(const Inference& inference) {
   std::set<std::string> names;
   for (const int r : inference.held_out()) {
     const Row& row = features.rows[static_cast<std::size_t>(r)];
-    const std::string& condition = features.conditions[static_cast<std::size_t>(row.condition)].name;
+    const std::string& condition = features.condition_of(row).name;
     names.insert(condition + (row.mode.empty() ? "" : " mode " + row.mode));
   }
   std::string text;

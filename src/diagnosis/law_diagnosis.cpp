@@ -430,9 +430,9 @@ void add_open_modes(const FeatureMap& map, const ByLaw& engine, Diagnosis& out) 
     const MeasuredMode& mode = map.measured_modes()[m];
     const bool opened = std::find(engine.opened().begin(), engine.opened().end(), static_cast<int>(m)) != engine.opened().end();
     if (out.after.all.paired[m] >= 0 && !opened) continue;
-    modes.push_back(fmt::format(
-        "{} ({:.4g} Hz{}{})", mode.label, mode.frequency_Hz, map.features().conditions.size() > 1 ? ", " : "",
-        map.features().conditions.size() > 1 ? map.features().conditions[static_cast<std::size_t>(mode.condition)].name : ""));
+    modes.push_back(fmt::format("{} ({:.4g} Hz{}{})", mode.label, mode.frequency_Hz,
+                                map.features().conditions.size() > 1 ? ", " : "",
+                                map.features().conditions.size() > 1 ? map.features().condition_of(mode).name : ""));
   }
   if (!modes.empty())
     out.form->warnings.push_back(

@@ -138,7 +138,7 @@ std::vector<HeldOutMode> held_out_modes(const LawSetting& setting, const LawSear
     const auto off_pct = [&](const Prediction& p, int r) {  // rows are logarithms
       return r < 0 ? std::numeric_limits<double>::quiet_NaN() : 100.0 * std::expm1(p.g[r] - map.values()[r]);
     };
-    const Condition& condition = map.features().conditions[static_cast<std::size_t>(mode.condition)];
+    const Condition& condition = map.features().condition_of(mode);
     const int damping = condition.dampers_on.value_or(false) ? mode.damping : -1;  // else not computed
     out.push_back({mode.label, condition.name, off_pct(without, mode.frequency), off_pct(with, mode.frequency),
                    off_pct(without, damping), off_pct(with, damping), without.mac[m], with.mac[m]});

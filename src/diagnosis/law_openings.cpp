@@ -103,7 +103,7 @@ std::vector<OpenMode> modes_that_may_open(const Inference& plain, const FitSyste
     }
     const bool is_open = system.unpaired[m];
     if (here.rows.empty() || (is_aside && !is_open)) continue;
-    OpenMode& open = by_name[{map.features().conditions[static_cast<std::size_t>(mode.condition)].state, mode.label, is_open}];
+    OpenMode& open = by_name[{map.features().condition_of(mode).state, mode.label, is_open}];
     open.is_open = is_open;
     open.modes.push_back(static_cast<int>(m));
     open.rows.insert(open.rows.end(), here.rows.begin(), here.rows.end());

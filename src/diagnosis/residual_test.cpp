@@ -26,7 +26,7 @@ Blocks blocks_of(const Inference& inference) {
   for (std::size_t i = 0; i < inference.training().size(); ++i) {
     const Row& row = features.rows[static_cast<std::size_t>(inference.training()[i])];
     const auto at = static_cast<int>(i);
-    const std::string condition = features.conditions[static_cast<std::size_t>(row.condition)].name;
+    const std::string condition = features.condition_of(row).name;
     by_name["all rows in " + condition].push_back(at);
     by_name[name_of(row.type) + " in " + condition].push_back(at);
     by_name["every " + name_of(row.type)].push_back(at);
@@ -89,7 +89,7 @@ std::vector<Trends> trends_of(const Inference& inference) {
       for (std::size_t i = 0; i < inference.training().size(); ++i) {
         const Row& row = row_of(i);
         if (row.type != type) continue;
-        const Condition& condition = features.conditions[static_cast<std::size_t>(row.condition)];
+        const Condition& condition = features.condition_of(row);
         if (const auto v = variable(condition))
           series[{row.mode, condition.dampers_on.value_or(false)}].emplace_back(static_cast<Eigen::Index>(i), *v);
       }

@@ -68,8 +68,7 @@ std::optional<Finding> leave_out_unpaired(double least_mac, const ScatterOptions
     const bool other = prediction.paired[m] < 0 || prediction.mac[m] < least_mac;
     if (mode.real_rows.size() < 2 || !other) continue;
     unpaired.insert({mode.condition, mode.label});
-    std::string name = fmt::format("{} of {} ({:.3f} Hz", mode.label,
-                                   features.conditions[static_cast<std::size_t>(mode.condition)].name, mode.frequency_Hz);
+    std::string name = fmt::format("{} of {} ({:.3f} Hz", mode.label, features.condition_of(mode).name, mode.frequency_Hz);
     if (stays != model.sets.end())
       for (const ReducedPlace& stay : stays->second)
         for (int harmonic = 1; harmonic <= 2 && stay.attributes.contains("f_cable"); ++harmonic)
@@ -128,8 +127,7 @@ void hold_out(const std::vector<std::string>& rules, FeatureSet& features) {
     if (rule.ends_with("/every_second")) {
       std::map<double, std::string> ascending;
       for (const Row& row : features.rows)
-        if (row.type == RowType::frequency &&
-            features.conditions[static_cast<std::size_t>(row.condition)].name == rule.substr(0, slash))
+        if (row.type == RowType::frequency && features.condition_of(row).name == rule.substr(0, slash))
           ascending[row.value] = row.mode;
       bool even = false;
       for (const auto& [frequency, mode] : ascending) {
@@ -138,7 +136,7 @@ void hold_out(const std::vector<std::string>& rules, FeatureSet& features) {
       }
     }
     for (Row& row : features.rows) {
-      const bool hit = features.conditions[static_cast<std::size_t>(row.condition)].name == rule.substr(0, slash) &&
+      const bool hit = features.condition_of(row).name == rule.substr(0, slash) &&
                        (slash == std::string::npos || row.mode == rule.substr(slash + 1, second - slash - 1) ||
                         second_modes.contains(row.mode)) &&
                        (second == std::string::npos || name_of(row.type) == rule.substr(second + 1));

@@ -34,7 +34,7 @@ std::vector<MeasuredShape> shapes_of(const FeatureSet& features) {
   for (const Condition& condition : features.conditions) without = without || condition.dampers_on == false;
   for (const Row& row : features.rows) {
     const std::pair<int, std::string> key{row.condition, row.mode};
-    if (without && features.conditions[static_cast<std::size_t>(row.condition)].dampers_on.value_or(false)) continue;
+    if (without && features.condition_of(row).dampers_on.value_or(false)) continue;
     if (row.type == RowType::frequency) {
       found[key] = {row.mode, row.condition, row.value, {}, {}};
       order.push_back(key);

@@ -16,7 +16,7 @@ void hold_out_largest(FeatureSet& features, Value value) {
     if (const std::optional<double> v = value(condition)) values.insert(*v);
   if (values.size() < 3) return;
   for (Row& row : features.rows) {
-    const auto v = value(features.conditions[static_cast<std::size_t>(row.condition)]);
+    const auto v = value(features.condition_of(row));
     if (v && *v == *values.rbegin()) row.held_out = true;
   }
 }

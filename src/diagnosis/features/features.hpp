@@ -65,6 +65,11 @@ struct FeatureSet {
   std::vector<Eigen::Vector3d> direction;        ///< (n_channels) direction cosines, zero where unknown
   Eigen::MatrixXd covariance;                    ///< (n_rows × n_rows) instead of std, or empty
   std::map<std::string, double> clipped, drift;  ///< by channel: share of samples, slope in rms (quality.csv)
+  /// Condition of a row, or of a measured mode.
+  template <typename Measured>
+  [[nodiscard]] const Condition& condition_of(const Measured& of) const {
+    return conditions[static_cast<std::size_t>(of.condition)];
+  }
 };
 
 /// Divides the rows into training and held-out ones. If no row is marked, these are held out: the largest of three or more

@@ -100,7 +100,7 @@ InUse in_use(const FeatureSet& features) {
   InUse used;
   for (const Row& row : features.rows) {
     if (!is_static(row.type)) continue;
-    used.cases.insert(features.conditions[static_cast<std::size_t>(row.condition)].load);
+    used.cases.insert(features.condition_of(row).load);
     used.channels.insert(row.channel);
   }
   return used;

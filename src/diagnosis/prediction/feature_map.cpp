@@ -145,9 +145,7 @@ void FeatureMap::add_static_form() {
     if (!is_static(one.type)) continue;
     for (std::size_t b = 0; b < features_.rows.size(); ++b) {
       const Row& other = features_.rows[b];
-      const auto load_of_row = [&](const Row& row) {
-        return features_.conditions[static_cast<std::size_t>(row.condition)].load;
-      };
+      const auto load_of_row = [&](const Row& row) { return features_.condition_of(row).load; };
       if (one.type != other.type || one.channel != other.channel || load_of_row(one) != load_of_row(other)) continue;
       covariance_(static_cast<Index>(a), static_cast<Index>(b)) +=
           kStaticForm * kStaticForm * largest.at({one.condition, one.type}) * largest.at({other.condition, other.type});

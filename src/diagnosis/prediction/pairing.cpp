@@ -163,8 +163,8 @@ void Predictor::pair(const std::vector<int>& conditions) {
     VectorXd& sum = cost.try_emplace(measured.label, VectorXd::Zero(n)).first->second;
     double& open = cost_of_none[measured.label];
     open += may_be_none(measured) ? kNoCounterpart : kNever;
-    if (std::find(labels.begin(), labels.end(), measured.label) == labels.end()) labels.push_back(measured.label);
-    const bool first = map_.features().conditions[static_cast<std::size_t>(measured.condition)].state == map_.states_.front();
+    if (!contains(labels, measured.label)) labels.push_back(measured.label);
+    const bool first = map_.features().condition_of(measured).state == map_.states_.front();
     sum += far_from_measured(measured, state, first ? kFrequencyWidth : kChangedWidth);
     if (measured.damping >= 0 && state.state.damped()) open += 0.5 * kFarDamping;
     // Shapes are known from this condition, or from another in which the label was measured with one.

@@ -210,7 +210,7 @@ void Predictor::differentiate_shape(const MeasuredMode& measured, SolvedState& s
 }
 
 Predictor::AddedToMode Predictor::added_to(const MeasuredMode& measured, const SolvedState& state, Index mode) const {
-  const Condition& condition = map_.features().conditions[static_cast<std::size_t>(measured.condition)];
+  const Condition& condition = map_.features().condition_of(measured);
   const Complex s = state.modes.s[mode];
   const VectorXcd phi = state.modes.shapes.col(mode);
   AddedToMode added;
@@ -340,7 +340,7 @@ void Predictor::predict_stays() {
           g += 0.5 * v.deviation * base_.x[static_cast<Index>(j)];  // f ~ sqrt(force)
           if (with_jacobian_) out_.jacobian(at, static_cast<Index>(j)) = 0.5 * v.deviation;
         }
-        const Condition& condition = map_.features().conditions[static_cast<std::size_t>(row.condition)];
+        const Condition& condition = map_.features().condition_of(row);
         each_action(Primitive::stay_frequency, condition, [&](const Candidate& c, const VectorXd& a, const ActionSpec& action) {
           if (c.places[0] == &stay) g += std::log(c.value(action.number.at("factor"), a));
         });

@@ -110,9 +110,7 @@ std::vector<Block> blocks_of(const Inference& inference, const PlaceWords& place
     if (!is_predicted(features, row)) continue;
     const std::string channel = row.channel >= 0 ? features.channels[static_cast<std::size_t>(row.channel)] : "";
     const std::string sensor = channel.empty() ? "" : places.at("channel:" + channel).words;
-    const std::string when = features.conditions.size() > 1
-                                 ? fmt::format(" ({})", features.conditions[static_cast<std::size_t>(row.condition)].name)
-                                 : "";
+    const std::string when = features.conditions.size() > 1 ? fmt::format(" ({})", features.condition_of(row).name) : "";
     if (row.type != RowType::shape && row.type != RowType::shape_imag) {
       blocks.push_back({quantity_words(row, sensor) + when, {r}, false});
       continue;

@@ -206,9 +206,8 @@ void write_residuals(const Inference& inference, const Diagnosis& result, const 
   for (std::size_t r = 0; r < map.features().rows.size(); ++r) {
     const Row& row = map.features().rows[r];
     const auto i = static_cast<Index>(r);
-    csv.row({name_of(row.type), row.mode, channel_of(inference, row),
-             map.features().conditions[static_cast<std::size_t>(row.condition)].name, row.held_out ? 1 : 0, row.value, row.std,
-             told(result.before, i, own_unit(row, result.before.all.g[i])),
+    csv.row({name_of(row.type), row.mode, channel_of(inference, row), map.features().condition_of(row).name,
+             row.held_out ? 1 : 0, row.value, row.std, told(result.before, i, own_unit(row, result.before.all.g[i])),
              told(result.after, i, own_unit(row, result.after.all.g[i])), told(result.before, i, e0[i]),
              told(result.after, i, e1[i]), told(result.before, i, std::abs(e0[i]) > limit ? 1.0 : 0.0),
              told(result.after, i, std::abs(e1[i]) > limit ? 1.0 : 0.0)});
@@ -240,7 +239,7 @@ void write_gain(const Inference& inference, const Diagnosis& result, const std::
   std::map<std::tuple<std::string, std::string, std::string>, Sum> sums;
   for (const int r : inference.held_out()) {
     const Row& row = features.rows[static_cast<std::size_t>(r)];
-    Sum& sum = sums[{name_of(row.type), row.mode, features.conditions[static_cast<std::size_t>(row.condition)].name}];
+    Sum& sum = sums[{name_of(row.type), row.mode, features.condition_of(row).name}];
     sum.rows += 1;
     sum.before += e0[r] * e0[r];
     sum.after += e1[r] * e1[r];
@@ -275,9 +274,8 @@ void write_pairs(const Inference& inference, const Diagnosis& result, const std:
   const auto known = [](double mac) { return std::isfinite(mac) ? std::optional<double>(mac) : std::nullopt; };
   for (std::size_t m = 0; m < map.measured_modes().size(); ++m) {
     const diagnosis::MeasuredMode& mode = map.measured_modes()[m];
-    csv.row({mode.label, map.features().conditions[static_cast<std::size_t>(mode.condition)].name, mode.frequency_Hz,
-             result.before.all.frequency_Hz[m], result.after.all.frequency_Hz[m], known(result.before.all.mac[m]),
-             known(result.after.all.mac[m])});
+    csv.row({mode.label, map.features().condition_of(mode).name, mode.frequency_Hz, result.before.all.frequency_Hz[m],
+             result.after.all.frequency_Hz[m], known(result.before.all.mac[m]), known(result.after.all.mac[m])});
   }
   csv.save(file);
 }
@@ -293,7 +291,7 @@ void write_misfit(const Inference& inference, const Diagnosis& result, const std
     for (std::size_t r = 0; r < features.rows.size(); ++r) {
       const Row& row = features.rows[r];
       const std::string name = by == "type"        ? name_of(row.type)
-                               : by == "condition" ? features.conditions[static_cast<std::size_t>(row.condition)].name
+                               : by == "condition" ? features.condition_of(row).name
                                : by == "mode"      ? row.mode
                                                    : channel_of(inference, row);
       if (name.empty()) continue;

@@ -70,7 +70,7 @@ std::vector<dynamics::MeasuredFrequencies> frequencies_of(const diagnosis::Featu
   for (const diagnosis::Row& row : features.rows) {
     if (row.type != diagnosis::RowType::frequency) continue;
     dynamics::MeasuredFrequencies& found = conditions[static_cast<std::size_t>(row.condition)];
-    found.names.push_back(fmt::format("{} of {}", row.mode, features.conditions[static_cast<std::size_t>(row.condition)].name));
+    found.names.push_back(fmt::format("{} of {}", row.mode, features.condition_of(row).name));
     found.frequency_Hz.conservativeResize(found.frequency_Hz.size() + 1);
     found.frequency_Hz.tail<1>()[0] = row.value;
   }
