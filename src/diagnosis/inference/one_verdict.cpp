@@ -7,17 +7,8 @@
 namespace twindeck::diagnosis {
 
 std::string name_of(Verdict verdict) {
-  switch (verdict) {
-    case Verdict::named:
-      return "named";
-    case Verdict::ambiguous:
-      return "ambiguous";
-    case Verdict::unknown:
-      return "unknown";
-    case Verdict::none:
-      break;
-  }
-  return "none";
+  static constexpr const char* in_order[] = {"none", "named", "ambiguous", "unknown"};
+  return in_order[static_cast<std::size_t>(verdict)];
 }
 
 Judgement judge(double log_weight_of_nothing, const std::vector<PossibleAnswer>& answers) {

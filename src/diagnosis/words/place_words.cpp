@@ -50,21 +50,10 @@ std::string most_frequent(const std::map<std::string, int>& counts) {
 }
 
 std::string words_of_target(fe::Target target, const std::string& of) {
-  switch (target) {
-    case fe::Target::youngs_modulus:
-    case fe::Target::density:
-      return "what is of " + of;
-    case fe::Target::thickness:
-    case fe::Target::bending_inertia_ratio:
-    case fe::Target::area:
-      return "what has the section " + of;
-    case fe::Target::spring_stiffness:
-      return "the springs " + of;
-    case fe::Target::point_mass:
-      return "the masses " + of;
-    default:
-      return "";
-  }
+  if (target == fe::Target::matrix_stiffness || target == fe::Target::matrix_mass) return "";
+  if (target == fe::Target::youngs_modulus || target == fe::Target::density) return "what is of " + of;
+  if (target == fe::Target::spring_stiffness) return "the springs " + of;
+  return (target == fe::Target::point_mass ? "the masses " : "what has the section ") + of;
 }
 
 }  // namespace

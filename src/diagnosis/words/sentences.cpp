@@ -45,50 +45,24 @@ double surprise(const Block& block, const VectorXd& residual) {
   return ratio > 1.0 ? 0.5 * static_cast<double>(block.rows.size()) * (ratio - 1.0 - std::log(ratio)) : 0.0;
 }
 
-std::string quantity_words(const Row& row, const std::string& sensor) {
-  switch (row.type) {
-    case RowType::frequency:
-      return "the frequency of mode " + row.mode;
-    case RowType::damping:
-      return "the damping ratio of mode " + row.mode;
-    case RowType::stay_frequency:
-      return fmt::format("the frequency of the stay {} (harmonic {})", row.stay, row.mode);
-    case RowType::rms:
-      return "the RMS acceleration at " + sensor;
-    case RowType::psd_floor:
-      return "the noise floor at " + sensor;
-    case RowType::static_displacement:
-      return "the displacement under load at " + sensor;
-    case RowType::static_rotation:
-      return "the rotation under load at " + sensor;
-    case RowType::static_strain:
-      return "the strain under load at " + sensor;
-    case RowType::static_force:
-      return "the support force under load at " + sensor;
-    default:
-      return "the shape of mode " + row.mode;
-  }
+/// What a type of row measures, before its mode, stay or sensor, and its unit.
+struct Quantity {
+  const char *words, *unit;
+};
+
+const Quantity& quantity_of(RowType type) {
+  static constexpr Quantity in_order[] = {
+      {"the frequency of mode ", "Hz"},     {"the damping ratio of mode ", "%"},      {"the shape of mode ", ""},
+      {"the shape of mode ", ""},           {"the frequency of the stay ", "Hz"},     {"the RMS acceleration at ", "m/s2"},
+      {"the noise floor at ", "m2/s3"},     {"the displacement under load at ", "m"}, {"the rotation under load at ", "rad"},
+      {"the strain under load at ", "m/m"}, {"the support force under load at ", "N"}};
+  return in_order[static_cast<std::size_t>(type)];
 }
 
-std::string unit_of(RowType type) {
-  switch (type) {
-    case RowType::damping:
-      return "%";
-    case RowType::rms:
-      return "m/s2";
-    case RowType::psd_floor:
-      return "m2/s3";
-    case RowType::static_displacement:
-      return "m";
-    case RowType::static_rotation:
-      return "rad";
-    case RowType::static_strain:
-      return "m/m";
-    case RowType::static_force:
-      return "N";
-    default:
-      return "Hz";
-  }
+std::string quantity_words(const Row& row, const std::string& sensor) {
+  const std::string words = quantity_of(row.type).words;
+  if (row.type == RowType::stay_frequency) return fmt::format("{}{} (harmonic {})", words, row.stay, row.mode);
+  return words + (words.ends_with("mode ") ? row.mode : sensor);
 }
 
 /// Whether a row is predicted. A held-out damping ratio is not, if the fit has no damping row of its mode, because every mode
@@ -140,8 +114,8 @@ std::string block_words(const Block& block, const Inference& inference, const Di
     const double transformed = result.before.all.g[r],
                  computed = is_logarithmic(row.type) ? std::exp(transformed) : transformed;
     text = fmt::format("{} is measured as {} {}, the model fitted within its bounds has {} {}: {:.1f} standard deviations off",
-                       block.words, number_in_words(row.value, kMeasuredDigits), unit_of(row.type),
-                       number_in_words(computed, kMeasuredDigits), unit_of(row.type), std::abs(before[r]));
+                       block.words, number_in_words(row.value, kMeasuredDigits), quantity_of(row.type).unit,
+                       number_in_words(computed, kMeasuredDigits), quantity_of(row.type).unit, std::abs(before[r]));
   }
   if (!result.effects.empty())
     text += fmt::format("; with the causes below in the model {:.1f}", std::sqrt(mean_square(block, after)));
