@@ -146,49 +146,33 @@ MatrixXd strongest_of(const CommonBasis& basis, const linalg::Cholesky& factor,
 
 /// K^-1 dK Phi and K^-1 dM Phi Lambda for each parameter and, if asked for, each group of elements, by their possible change.
 /// The strongest few of each beyond the basis are kept, and of all these the strongest. Each mode is scaled by its strain
-/// energy, so that the remaining error is the same part of each frequency.
+/// energy, so that the remaining error is the same part of each frequency. For the answers to load tests, which have no
+/// eigenvalue, K^-1 dK u alone.
+/// @param squares  eigenvalues of the vectors `low`; empty for answers of unit strain energy
 MatrixXd corrections(const CommonBasis& basis, const linalg::Cholesky& factor, const fe::ParametricSystem& system,
-                     const Eigen::VectorXd& theta, const Eigen::VectorXd& eigenvalue, const MatrixXd& low, const Places& places,
+                     const Eigen::VectorXd& theta, const Eigen::VectorXd& squares, const MatrixXd& low, const Places& places,
                      const ReductionOptions& options) {
   std::vector<std::function<MatrixXd()>> changes;
-  const auto squares = eigenvalue.head(low.cols());
+  const bool of_modes = squares.size() > 0;
   for (std::size_t p = 0; p < system.parameters.size(); ++p) {
     const double range = system.parameters[p].upper - system.parameters[p].lower;
     if (!(range > 0.0)) continue;
     changes.emplace_back([&, p, range] {
       MatrixXd change = system.stiffness_derivative_times(theta, static_cast<int>(p), low);
-      change -= system.mass_derivative_times(theta, static_cast<int>(p), low) * squares.asDiagonal();
+      if (of_modes) change -= system.mass_derivative_times(theta, static_cast<int>(p), low) * squares.asDiagonal();
       return MatrixXd(0.25 * range * change);
     });
   }
   if (const auto zones = places.sets.find("zones"); zones != places.sets.end() && options.element_change > 0.0)
     for (const Place& place : zones->second) {
       if (place.stiffness.size() > 0) changes.emplace_back([&] { return place.stiffness.times(options.element_change, low); });
-      if (place.mass.size() > 0)
+      if (of_modes && place.mass.size() > 0)
         changes.emplace_back([&] { return MatrixXd(place.mass.times(options.element_change, low) * squares.asDiagonal()); });
     }
+  if (!of_modes) return strongest_of(basis, factor, changes, Eigen::VectorXd::Ones(low.cols()), options);
   const double least = 1e-6 * squares[squares.size() - 1];  // rigid-body modes have none
   const Eigen::VectorXd scale = squares.cwiseMax(least).cwiseSqrt().cwiseInverse();
   return strongest_of(basis, factor, changes, scale, options);
-}
-
-/// The same for load tests: K^-1 dK u for each parameter and group of elements.
-MatrixXd answer_corrections(const CommonBasis& basis, const linalg::Cholesky& factor, const fe::ParametricSystem& system,
-                            const Eigen::VectorXd& theta, const MatrixXd& answers, const Places& places,
-                            const ReductionOptions& options) {
-  std::vector<std::function<MatrixXd()>> changes;
-  for (std::size_t p = 0; p < system.parameters.size(); ++p) {
-    const double range = system.parameters[p].upper - system.parameters[p].lower;
-    if (range > 0.0)
-      changes.emplace_back([&, p, range] {
-        return MatrixXd(0.25 * range * system.stiffness_derivative_times(theta, static_cast<int>(p), answers));
-      });
-  }
-  if (const auto zones = places.sets.find("zones"); zones != places.sets.end() && options.element_change > 0.0)
-    for (const Place& place : zones->second)
-      if (place.stiffness.size() > 0)
-        changes.emplace_back([&] { return place.stiffness.times(options.element_change, answers); });
-  return strongest_of(basis, factor, changes, Eigen::VectorXd::Ones(answers.cols()), options);
 }
 
 /// Responses to the loads of load tests, of unit strain energy.
@@ -300,13 +284,14 @@ void StaticVectors::make_common(const Structure& structure, const Places& places
   low_ = modes.shapes.leftCols(std::min<Index>(options.corrected_modes, modes.shapes.cols()));
   basis_ = std::make_unique<CommonBasis>(stiffness_, system.size());
   basis_->append(modes.shapes);
-  basis_->append(corrections(*basis_, factor_, system, structure.theta, modes.eigenvalue, low_, places, options));
+  basis_->append(
+      corrections(*basis_, factor_, system, structure.theta, modes.eigenvalue.head(low_.cols()), low_, places, options));
   if (const auto dampers = places.sets.find("dampers"); dampers != places.sets.end())
     for (const Place& damper : dampers->second) basis_->append(factor_.solve(MatrixXd(damper.directions)));
   if (structure.load_tests.empty()) return;
   answers_ = unit_answers(structure.load_tests, factor_, stiffness_);
   basis_->append(answers_);
-  basis_->append(answer_corrections(*basis_, factor_, system, structure.theta, answers_, places, options));
+  basis_->append(corrections(*basis_, factor_, system, structure.theta, {}, answers_, places, options));
 }
 
 }  // namespace twindeck::diagnosis
