@@ -12,18 +12,11 @@ namespace {
 /// y += a · (symmetric matrix of the term) x, rows of x and y being the vectors' entries of one degree of freedom (m × n).
 void add_product(const linalg::SparseMatrix& pattern, const Term& term, double a, const Eigen::MatrixXd& xt,
                  Eigen::MatrixXd& yt) {
-  const int* outer = pattern.outerIndexPtr();
-  const int* inner = pattern.innerIndexPtr();
-  int column = 0;
-  for (std::size_t i = 0; i < term.position.size(); ++i) {
-    const int position = term.position[i];
-    if (position < outer[column]) column = 0;  // positions ascend where we assembled them; an imported term may not
-    while (position >= outer[column + 1]) ++column;
-    const int row = inner[position];
-    const double v = a * term.value[i];
+  for_each_entry(pattern, term, [&](int row, int column, double value) {
+    const double v = a * value;
     yt.col(row) += v * xt.col(column);
     if (row != column) yt.col(column) += v * xt.col(row);
-  }
+  });
 }
 
 /// The same for a term of few entries, without turning the vectors over: y += a · (symmetric matrix of the term) x, (n × m).

@@ -8,18 +8,6 @@
 
 namespace twindeck::diagnosis {
 
-namespace {
-
-/// Position of a ratio in a list; a new one is appended.
-std::size_t position_of(const fe::Coefficient& ratio, std::vector<fe::Coefficient>& ratios) {
-  const auto known = std::find_if(ratios.begin(), ratios.end(), [&](const auto& other) { return same_ratio(ratio, other); });
-  const auto at = static_cast<std::size_t>(known - ratios.begin());
-  if (at == ratios.size()) ratios.push_back(ratio);
-  return at;
-}
-
-}  // namespace
-
 ElementLaws::ElementLaws(const Structure& structure) : structure_(structure) {
   const fe::Model& model = *structure.model;
   if (model.parameters.empty()) return;

@@ -39,4 +39,11 @@ bool same_ratio(const fe::Coefficient& a, const fe::Coefficient& b) {
          same(s.modulus, t.modulus) && same(s.density, t.density) && same(s.area, t.area);
 }
 
+std::size_t position_of(const fe::Coefficient& ratio, std::vector<fe::Coefficient>& ratios) {
+  const auto known = std::ranges::find_if(ratios, [&](const auto& other) { return same_ratio(ratio, other); });
+  const auto at = static_cast<std::size_t>(known - ratios.begin());
+  if (at == ratios.size()) ratios.push_back(ratio);
+  return at;
+}
+
 }  // namespace twindeck::diagnosis

@@ -51,5 +51,7 @@ struct ParameterLaw {
 [[nodiscard]] fe::Coefficient ratio_of(const fe::Coefficient& coefficient, const Eigen::VectorXd& theta);
 /// Whether two ratios are the same function of the parameters.
 [[nodiscard]] bool same_ratio(const fe::Coefficient& a, const fe::Coefficient& b);
+/// Position of a ratio in a list; a new one is appended.
+[[nodiscard]] std::size_t position_of(const fe::Coefficient& ratio, std::vector<fe::Coefficient>& ratios);
 
 }  // namespace twindeck::diagnosis

@@ -6,6 +6,7 @@
 #include "core/error.hpp"
 #include "diagnosis/reduction/place_parts.hpp"
 #include "diagnosis/reduction/structure.hpp"
+#include "fe/term_sum.hpp"
 
 namespace twindeck::diagnosis {
 
@@ -18,21 +19,13 @@ const Eigen::Vector3d kNowhere = Eigen::Vector3d::Constant(std::numeric_limits<d
 /// A sum of terms on both triangles. @param amounts  (n_terms)
 Symmetric of_terms(const fe::ParametricSystem& system, const std::vector<fe::Term>& terms, const std::vector<double>& amounts) {
   Triplets entries;
-  const int* outer = system.pattern.outerIndexPtr();
-  const int* inner = system.pattern.innerIndexPtr();
   for (std::size_t t = 0; t < terms.size(); ++t) {
-    const fe::Term& term = terms[t];
     const double a = amounts[t];
     if (a == 0.0) continue;
-    int column = 0;
-    for (std::size_t i = 0; i < term.position.size(); ++i) {
-      const int position = term.position[i];
-      if (position < outer[column]) column = 0;
-      while (position >= outer[column + 1]) ++column;
-      const int row = inner[position];
-      entries.emplace_back(row, column, a * term.value[i]);
-      if (row != column) entries.emplace_back(column, row, a * term.value[i]);
-    }
+    fe::for_each_entry(system.pattern, terms[t], [&](int row, int column, double value) {
+      entries.emplace_back(row, column, a * value);
+      if (row != column) entries.emplace_back(column, row, a * value);
+    });
   }
   Symmetric matrix;
   if (entries.empty()) return matrix;
@@ -50,13 +43,8 @@ ParameterLaw<CompactMatrix> law_of_terms(const fe::ParametricSystem& system, con
   std::vector<std::vector<double>> shares;  // (n_ratios × n_terms)
   for (std::size_t t = 0; t < terms.size(); ++t) {
     if (amounts[t] == 0.0) continue;
-    const fe::Coefficient ratio = ratio_of(terms[t].coefficient, theta);
-    const auto known = std::find_if(ratios.begin(), ratios.end(), [&](const auto& other) { return same_ratio(ratio, other); });
-    const auto at = static_cast<std::size_t>(known - ratios.begin());
-    if (known == ratios.end()) {
-      ratios.push_back(ratio);
-      shares.emplace_back(terms.size(), 0.0);
-    }
+    const std::size_t at = position_of(ratio_of(terms[t].coefficient, theta), ratios);
+    shares.resize(ratios.size(), std::vector<double>(terms.size(), 0.0));
     shares[at][t] = amounts[t];
   }
   if (!ratios.empty()) law.ratio = ratios.front();

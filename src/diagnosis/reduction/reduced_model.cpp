@@ -2,12 +2,12 @@
 
 #include <algorithm>
 #include <functional>
-#include <utility>
 
 #include "core/error.hpp"
 #include "core/parallel.hpp"
 #include "diagnosis/reduction/static_vectors.hpp"
 #include "dynamics/eigenmodes.hpp"
+#include "fe/term_sum.hpp"
 
 namespace twindeck::diagnosis {
 
@@ -18,16 +18,10 @@ using Eigen::MatrixXd;
 
 Symmetric symmetric_of(const fe::ParametricSystem& system, const fe::Term& term) {
   std::vector<Eigen::Triplet<double>> entries;
-  const int* outer = system.pattern.outerIndexPtr();
-  const int* inner = system.pattern.innerIndexPtr();
-  int column = 0;
-  for (std::size_t i = 0; i < term.position.size(); ++i) {
-    const int position = term.position[i];
-    if (position < outer[column]) column = 0;
-    while (position >= outer[column + 1]) ++column;
-    entries.emplace_back(inner[position], column, term.value[i]);
-    if (inner[position] != column) entries.emplace_back(column, inner[position], term.value[i]);
-  }
+  fe::for_each_entry(system.pattern, term, [&](int row, int column, double value) {
+    entries.emplace_back(row, column, value);
+    if (row != column) entries.emplace_back(column, row, value);
+  });
   Symmetric matrix(system.size(), system.size());
   matrix.setFromTriplets(entries.begin(), entries.end());
   return matrix;
