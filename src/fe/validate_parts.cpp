@@ -47,12 +47,6 @@ std::vector<std::string> names_of(const List& list, Name name) {
   return {names.begin(), names.end()};
 }
 
-const char* kind_of(Target target) {
-  if (target == Target::youngs_modulus || target == Target::density) return "material";
-  if (target == Target::spring_stiffness) return "group of springs";
-  return target == Target::point_mass ? "group of point masses" : "section";
-}
-
 void check_names(const Model& model, const Parameter& p) {
   if (p.target == Target::matrix_stiffness || p.target == Target::matrix_mass)
     refuse(model, p, "scales a matrix, but this model is made of elements", "scale a material, a section or a group");
@@ -153,6 +147,12 @@ void validate_properties(const Model& model) {
         break;
     }
   }
+}
+
+const char* kind_of(Target target) {
+  if (target == Target::youngs_modulus || target == Target::density) return "material";
+  if (target == Target::spring_stiffness) return "group of springs";
+  return target == Target::point_mass ? "group of point masses" : "section";
 }
 
 std::vector<std::string> names_of_target(const Model& model, Target target) {

@@ -27,6 +27,8 @@ void validate_properties(const Model& model);
 /// What a parameter of this target may name, each once and in order: materials, sections, groups of springs or of point masses.
 /// @param target  of a model of elements, none of a matrix
 [[nodiscard]] std::vector<std::string> names_of_target(const Model& model, Target target);
+/// "material", "section", "group of springs" or "group of point masses". @param target  as above
+[[nodiscard]] const char* kind_of(Target target);
 /// Units in which a parameter's values may be given, the usual one first: SI, or none ("-") for a factor.
 [[nodiscard]] std::vector<std::string> units_of(Target target);
 /// Parameters refer to existing names; their initial values equal the model's and lie inside the bounds.

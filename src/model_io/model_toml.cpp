@@ -121,12 +121,6 @@ InputError key_error(const std::filesystem::path& file, const std::string& ancho
   return InputError({file.string(), line_of(file, anchor), key}, problem, mend);
 }
 
-const char* kind_of(fe::Target target) {
-  if (target == fe::Target::youngs_modulus || target == fe::Target::density) return "material";
-  if (target == fe::Target::spring_stiffness) return "group of springs";
-  return target == fe::Target::point_mass ? "group of masses" : "section";
-}
-
 fe::Parameter to_parameter(const std::filesystem::path& file, const fe::Model& model, const ParameterEntry& entry) {
   const std::string anchor = "\"" + entry.name + "\"";
   const std::string key = "parameter " + entry.name;
@@ -136,12 +130,12 @@ fe::Parameter to_parameter(const std::filesystem::path& file, const fe::Model& m
                   entry.upper};
   if (p.of.empty())
     throw key_error(file, anchor, key, "'of' is missing or empty",
-                    fmt::format("name the {} that it applies to", kind_of(p.target)));
+                    fmt::format("name the {} that it applies to", fe::kind_of(p.target)));
   const auto known = fe::names_of_target(model, p.target);
   for (const auto& name : p.of)
     if (position_of(name, known) < 0)
       throw key_error(file, anchor, key,
-                      fmt::format("no {} is called '{}'{}", kind_of(p.target), name, did_you_mean(name, known)),
+                      fmt::format("no {} is called '{}'{}", fe::kind_of(p.target), name, did_you_mean(name, known)),
                       "'of' lists names of the model's own files");
   if (!(p.lower <= p.initial && p.initial <= p.upper))
     throw key_error(file, anchor, key,
@@ -168,9 +162,7 @@ fe::Prestress::Condition to_condition(const std::filesystem::path& file, const N
 std::vector<fe::Prestress::Load> loads_of_case(const std::filesystem::path& file, const NameIndex& index,
                                                const std::string& name) {
   std::vector<fe::Prestress::Load> loads;
-  std::vector<std::string> known;
   for (const LoadEntry& entry : read_load_cases(file.parent_path())) {
-    if (position_of(entry.load, known) < 0) known.push_back(entry.load);
     if (entry.load != name) continue;
     const auto [node, dof] = index.displacement(entry.node + ":" + direction_names()[fe::slot(entry.direction)]);
     if (node < 0)
@@ -180,7 +172,8 @@ std::vector<fe::Prestress::Load> loads_of_case(const std::filesystem::path& file
   }
   if (loads.empty())
     throw key_error(file, "\"" + name + "\"", "prestress.load",
-                    fmt::format("no load case of loads.csv is called '{}'{}", name, did_you_mean(name, known)),
+                    fmt::format("no load case of loads.csv is called '{}'{}", name,
+                                did_you_mean(name, load_case_names(file.parent_path()))),
                     "name a load case of the model folder's loads.csv");
   return loads;
 }
