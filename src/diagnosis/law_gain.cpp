@@ -3,13 +3,14 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
 #include <memory>
 #include <set>
+#include <string>
 
 #include "core/error.hpp"
 #include "core/parallel.hpp"
 #include "diagnosis/law_fits.hpp"
-#include "diagnosis/mode_blocks.hpp"
 #include "linalg/dense.hpp"
 
 namespace twindeck::diagnosis {
@@ -21,6 +22,32 @@ using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
 constexpr double kGuarded = 15.0;  // nats below the leader; accounts within it are part of the gain
+constexpr int kFewestBlocks = 3;   // blocks, for resampling
+
+/// Rows of whole modes, as positions among the training rows. A block holds one model mode in all conditions. With fewer than
+/// three modes, each condition of a mode is a block, because the form error hardly correlates them.
+std::vector<std::vector<int>> mode_blocks(const Inference& plain, const Fit& fit, bool by_condition = false) {
+  const FormModes modes = plain.map().form_modes(fit.base, fit.causes);
+  std::map<int, int> place;  // position of a row among the training rows
+  for (std::size_t r = 0; r < plain.training().size(); ++r) place[plain.training()[r]] = static_cast<int>(r);
+  std::map<std::string, std::vector<int>> blocks;
+  for (std::size_t m = 0; m < modes.paired.size(); ++m) {
+    const MeasuredMode& mode = plain.map().measured_modes()[m];
+    std::string name = modes.paired[m].model_mode >= 0 ? std::to_string(modes.paired[m].model_mode) : "label " + mode.label;
+    if (by_condition) name += " in " + std::to_string(mode.condition);
+    std::vector<int>& block = blocks[name];
+    std::vector<int> rows = mode.real_rows;
+    rows.insert(rows.end(), mode.imag_rows.begin(), mode.imag_rows.end());
+    rows.push_back(mode.frequency);
+    rows.push_back(mode.damping);
+    for (const int r : rows)
+      if (const auto at = place.find(r); at != place.end()) block.push_back(at->second);
+  }
+  std::vector<std::vector<int>> out;
+  for (auto& [name, block] : blocks)
+    if (!block.empty()) out.push_back(std::move(block));
+  return std::ssize(out) < kFewestBlocks && !by_condition ? mode_blocks(plain, fit, true) : out;
+}
 
 /// Sigma^-1 at an account's scales. Linear magnitudes are unknowns with the variance of their range (`further`).
 std::shared_ptr<const Precision> precision_at(const LawSystem& system, const VectorXd& tau, const MatrixXd& further) {

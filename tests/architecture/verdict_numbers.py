@@ -8,7 +8,7 @@ import pathlib
 import re
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
-SOURCES = ("law_*.[hc]pp", "inference/*.[hc]pp", "mode_blocks.cpp", "size_of_a_cause.cpp", "form_base.cpp", "features/form_columns.cpp")
+SOURCES = ("law_*.[hc]pp", "inference/*.[hc]pp", "size_of_a_cause.cpp", "form_base.cpp", "features/form_columns.cpp")
 # Units, rounding, the end of iterations and deviations that stand for "free".
 PRECISION = {"kUnitOfClasses", "kUnitOfKinks", "kPerCent", "kNoVariance", "kLargestColumn", "kOneFit", "kShows", "kKeptMagnitudes",
              "kRidge", "kLongestStep", "kIterations", "kHalvings", "kSettled", "kAtRest", "kFirstContrast", "kWideScale", "kAside"}
