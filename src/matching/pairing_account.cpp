@@ -177,6 +177,22 @@ void refuse_few_pairs(const PairingAccount& account, double least_paired, double
                       "wrong channels; `minimum_mac` and `least_paired` say what is enough"));
 }
 
+Pairing pair_as_configured(Reporter& reporter, const PairingSettings& settings, const Measured& measured,
+                           const dynamics::LoadedModel& model, const dynamics::EigenModes& modes, const Place& place) {
+  const Eigen::VectorXd& computed_Hz = modes.frequency_Hz;
+  const Pairing pairing = measured.modes.has_shapes()
+                              ? pair_at_sensors(measured, model, modes, settings, settings.sensor_tolerance_m)
+                          : settings.pairs.empty() ? pair_by_order(measured, computed_Hz.size())
+                                                   : pair_as_published(measured, computed_Hz.size(), settings.pairs, place);
+  warn_of_unmeasured(reporter, pairing);
+  const std::optional<std::string> factor = common_factor(measured, pairing, computed_Hz);
+  refuse_few_pairs(account_of(measured, pairing, computed_Hz), settings.least_paired, settings.minimum_mac, measured.source,
+                   factor);
+  if (factor) reporter.warn(*factor);
+  if (const auto far = far_by_order(measured, pairing, computed_Hz, settings.maximum_frequency_error)) reporter.warn(*far);
+  return pairing;
+}
+
 std::optional<std::string> reversed_channel(const Measured& measured, const Pairing& pairing) {
   const Index channels = pairing.shapes.rows();
   if (channels < fewest_channels || pairing.pairs.size() < 2) return std::nullopt;

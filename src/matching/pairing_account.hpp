@@ -19,6 +19,14 @@ inline constexpr double usual_minimum_mac = 0.2;
 /// too.
 inline constexpr double usual_least_paired = 0.5;
 
+/// How measured modes are paired with computed ones, as a step's configuration says.
+struct PairingSettings : PairingOptions {
+  PairingSettings() { minimum_mac = usual_minimum_mac; }
+  std::vector<std::string> pairs;            ///< "7X-8N", where no shape was measured; empty: by order
+  double least_paired = usual_least_paired;  ///< [-] of the measured modes, in a pairing by MAC
+  double sensor_tolerance_m = 0.5;           ///< largest distance of a sensor from its node
+};
+
 struct PairingAccount {
   bool by_shape = false;                ///< false: by order or by a published list; shapes do not show its quality
   int measured = 0;                     ///< number of modes that are paired or not above the highest computed mode
@@ -68,6 +76,14 @@ void warn_of_pairing(Reporter& reporter, const PairingAccount& account, const st
 /// @throws InputError  if fewer modes have a partner; the message names the modes without one, and the likely reason
 void refuse_few_pairs(const PairingAccount& account, double least_paired, double minimum_mac, const std::string& source,
                       const std::optional<std::string>& factor);
+
+/// Pairs of measured and computed modes: by MAC where shapes were measured, else as published, else by order. Warns of
+/// published pairs that are not measured, of pairs by order that are too far apart, and of one factor between all frequencies.
+/// @param place  where the list of pairs stands, for messages
+/// @throws InputError  as pair_as_published, pair_at_sensors, refuse_few_pairs
+[[nodiscard]] Pairing pair_as_configured(Reporter& reporter, const PairingSettings& settings, const Measured& measured,
+                                         const dynamics::LoadedModel& model, const dynamics::EigenModes& modes,
+                                         const Place& place);
 
 /// The channel whose shapes agree with the paired computed ones if its sign is reversed, in a sentence. The reversal must
 /// remove two thirds of 1 - MAC, summed over all pairs, and raise the mean MAC by 0.05. For a sound channel that moves, a

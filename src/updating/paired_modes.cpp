@@ -5,33 +5,12 @@
 #include "core/error.hpp"
 
 namespace twindeck::updating {
-namespace {
-
-matching::PairingOptions pairing_options(const UpdatingSettings& config) {
-  return matching::PairingOptions{.minimum_mac = config.minimum_mac,
-                                  .maximum_frequency_error = config.maximum_frequency_error,
-                                  .cluster_gap = config.cluster_gap};
-}
-
-}  // namespace
 
 matching::Pairing pair_for_updating(Reporter& reporter, const UpdatingSettings& config, const dynamics::LoadedModel& loaded,
                                     const dynamics::EigenModes& modes, const matching::Measured& measured) {
-  matching::Pairing pairing;
-  if (measured.modes.has_shapes()) {
-    if (!config.pairs.empty()) reporter.say("`pairs` is not used: shapes were measured, and modes are paired by their MAC");
-    pairing = matching::pair_at_sensors(measured, loaded, modes, pairing_options(config), config.sensor_tolerance_m);
-  } else if (!config.pairs.empty()) {
-    pairing = matching::pair_as_published(measured, modes.frequency_Hz.size(), config.pairs, {"", 0, "pairs"});
-  } else {
-    pairing = matching::pair_by_order(measured, modes.frequency_Hz.size());
-  }
-  matching::warn_of_unmeasured(reporter, pairing);
-  const matching::PairingAccount account = matching::account_of(measured, pairing, modes.frequency_Hz);
-  const std::optional<std::string> factor = matching::common_factor(measured, pairing, modes.frequency_Hz);
-  matching::refuse_few_pairs(account, config.least_paired, config.minimum_mac, measured.source, factor);
-  if (factor) reporter.warn(*factor);
-  if (const auto far = far_by_order(measured, pairing, modes.frequency_Hz, config.maximum_frequency_error)) reporter.warn(*far);
+  if (measured.modes.has_shapes() && !config.pairs.empty())
+    reporter.say("`pairs` is not used: shapes were measured, and modes are paired by their MAC");
+  matching::Pairing pairing = matching::pair_as_configured(reporter, config, measured, loaded, modes, {"", 0, "pairs"});
   if (pairing.pairs.empty())
     throw InputError({measured.source, 0, ""}, "no measured mode has a computed partner",
                      "check frequencies and pairs, or raise maximum_frequency_error");
@@ -58,8 +37,7 @@ matching::Pairing followed_pairing(const UpdatingSettings& config, const matchin
                                    const dynamics::EigenModes& modes, const matching::Measured& measured) {
   matching::Pairing pairing = before;
   if (measured.modes.has_shapes()) {
-    const matching::Pairing now =
-        matching::pair_at_sensors(measured, after, modes, pairing_options(config), config.sensor_tolerance_m);
+    const matching::Pairing now = matching::pair_at_sensors(measured, after, modes, config, config.sensor_tolerance_m);
     pairing.mac = now.mac;
     pairing.likeness = now.likeness;
     pairing.shapes = now.shapes;

@@ -13,9 +13,8 @@
 
 namespace twindeck::updating {
 
-/// Pairs of measured and computed modes: by MAC where shapes were measured, else as published, else by order. Warns of pairs of
-/// a list that are not measured, of pairs by order that are too far apart, and of one factor between all frequencies.
-/// @throws InputError  where no pair is left, or fewer than the share that the configuration asks for
+/// matching::pair_as_configured. Says where a list of pairs is not used.
+/// @throws InputError  as there, or where no pair is left
 [[nodiscard]] matching::Pairing pair_for_updating(Reporter& reporter, const UpdatingSettings& config,
                                                   const dynamics::LoadedModel& loaded, const dynamics::EigenModes& modes,
                                                   const matching::Measured& measured);

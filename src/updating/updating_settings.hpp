@@ -10,11 +10,10 @@
 namespace twindeck::updating {
 
 /// What is updated, to what, with which weights; the step's configuration has a sentence for each value.
-struct UpdatingSettings {
+struct UpdatingSettings : matching::PairingSettings {
   std::string parameters_from = "list";   ///< "list" | "s5_sensitivity"
   std::vector<std::string> parameters;    ///< empty: all that have a range
   bool beside_selection = false;          ///< a second update, of the parameters that s5_sensitivity selects
-  std::vector<std::string> pairs;         ///< "7X-8N", where no shape was measured; empty: by order
   std::vector<std::string> common_pairs;  ///< experimental modes of the second mean; empty: none
   std::string condition;                  ///< of the measured features
   double trust_radius = 2.0;
@@ -23,11 +22,6 @@ struct UpdatingSettings {
   long max_iterations = 100;
   long outer_iterations = 12;
   double optimality_tolerance = 1e-6;
-  double minimum_mac = matching::usual_minimum_mac;
-  double least_paired = matching::usual_least_paired;
-  double maximum_frequency_error = 0.35;
-  double cluster_gap = 0.02;
-  double sensor_tolerance_m = 0.5;
   bool leave_one_out = false;
   std::vector<std::string> residuals = {"frequency"};  ///< "frequency", "shape"
   std::string weights = "automatic";                   ///< "automatic" | "relative" | "covariance"

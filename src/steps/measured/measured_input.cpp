@@ -18,6 +18,21 @@ std::vector<runner::Flag> measured_flags() {
            "file of corrections of single channels, as s9_diagnosis writes it (corrections.toml), made before anything else"}};
 }
 
+void add_pairing_keys(io::FieldTable& table, matching::PairingSettings& settings) {
+  table
+      .number("minimum_mac", settings.minimum_mac, "", {0.0, 1.0},
+              "pairing by MAC: least MAC of a pair; other modes stay unpaired")
+      .number("least_paired", settings.least_paired, "", {0.0, 1.0},
+              "pairing by MAC: least share of the measured modes with a partner; below it the step refuses")
+      .number("maximum_frequency_error", settings.maximum_frequency_error, "", io::positive(),
+              "largest relative frequency difference of a pair; pairing by MAC excludes other pairs, pairing by order warns of "
+              "them")
+      .number("cluster_gap", settings.cluster_gap, "", io::non_negative(),
+              "pairing by MAC: relative frequency gap below which modes count as close")
+      .number("sensor_tolerance", settings.sensor_tolerance_m, "m", io::non_negative(),
+              "largest distance between a sensor and its nearest node");
+}
+
 namespace {
 
 /// What `--correct FILE` asks for, registered as an input and written into the manifest. Empty without the option.

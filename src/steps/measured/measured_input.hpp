@@ -6,7 +6,9 @@
 #include <vector>
 
 #include "dynamics/unit_slips.hpp"
+#include "io/config.hpp"
 #include "matching/measured.hpp"
+#include "matching/pairing_account.hpp"
 #include "records/corrections.hpp"
 #include "records/feature_rows.hpp"
 #include "records/measured_features.hpp"
@@ -22,6 +24,9 @@ namespace twindeck::steps {
 /// @param condition  of the step's configuration: used if neither --condition nor --state is given
 /// @throws InputError  an empty name, a missing file; see read_corrections
 [[nodiscard]] records::MeasuredChoice asked_choice(runner::StepContext& context, const std::string& condition = "");
+
+/// The keys of a pairing by MAC, for a step that pairs measured modes with those of a model.
+void add_pairing_keys(io::FieldTable& table, matching::PairingSettings& settings);
 
 /// Reads modes.csv, and shapes.csv and channels.csv if they exist, from a folder (`--modes DIR`).
 /// @throws InputError  as above

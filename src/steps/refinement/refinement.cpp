@@ -33,16 +33,8 @@ io::FieldTable RefinementConfig::fields() {
              "frequency")
       .text("condition", condition,
             "condition of the measured features (--condition or --state override it); empty: the only condition, or the only "
-            "one without dampers")
-      .number("minimum_mac", minimum_mac, "", {0.0, 1.0}, "pairing by MAC: least MAC of a pair; other modes stay unpaired")
-      .number("least_paired", least_paired, "", {0.0, 1.0},
-              "pairing by MAC: least share of the measured modes with a partner; below it the step refuses")
-      .number("maximum_frequency_error", maximum_frequency_error, "", io::positive(),
-              "largest relative frequency difference of a pair; pairing by MAC excludes other pairs, pairing by order warns of "
-              "them")
-      .number("cluster_gap", cluster_gap, "", io::non_negative(), "relative frequency gap below which modes count as close")
-      .number("sensor_tolerance", sensor_tolerance_m, "m", io::positive(),
-              "largest distance between a sensor and its nearest node");
+            "one without dampers");
+  add_pairing_keys(table, *this);
   return table;
 }
 
@@ -66,35 +58,20 @@ Place place_of_pairs(const runner::StepContext& context) {
   return {(context.study / "s4_refinement.toml").string(), 0, "pairs"};
 }
 
-matching::Pairing pair_refined(const runner::StepContext& context, const RefinementConfig& config,
-                               const matching::Measured& measured, const matching::SolvedModel& refined,
-                               const matching::PairingOptions& options) {
-  if (measured.modes.has_shapes())
-    return matching::pair_at_sensors(measured, refined.loaded, refined.modes, options, config.sensor_tolerance_m);
-  if (config.pairs.empty()) return matching::pair_by_order(measured, refined.modes.frequency_Hz.size());
-  return matching::pair_as_published(measured, refined.modes.frequency_Hz.size(), config.pairs, place_of_pairs(context));
-}
-
 matching::PairingAccount compare_with_measurement(runner::StepContext& context, const RefinementConfig& config,
                                                   const std::optional<matching::Measured>& measured,
                                                   const matching::SolvedModel& initial, const matching::SolvedModel& refined) {
   if (!measured) context.say("no measured modes: give --features DIR or --modes DIR to compare with");
   const matching::Measured some = measured.value_or(matching::Measured{});
   dynamics::warn_of_unit_slips(context, refined.loaded, refined.modes.frequency_Hz, frequencies_of(measured));
-  const matching::PairingOptions options{config.minimum_mac, config.maximum_frequency_error, config.cluster_gap};
   matching::Pairing after, before;
   matching::PairingAccount account;
   if (measured) {
-    after = pair_refined(context, config, some, refined, options);
-    matching::warn_of_unmeasured(context, after);
+    after = matching::pair_as_configured(context, config, some, refined.loaded, refined.modes, place_of_pairs(context));
     account = matching::account_of(some, after, refined.modes.frequency_Hz);
-    const std::optional<std::string> factor = matching::common_factor(some, after, refined.modes.frequency_Hz);
-    matching::refuse_few_pairs(account, config.least_paired, config.minimum_mac, some.source, factor);
-    matching::warn_of_pairing(context, account, factor, "");
-    if (const auto far = far_by_order(some, after, refined.modes.frequency_Hz, config.maximum_frequency_error))
-      context.warn(*far);
+    matching::warn_of_pairing(context, account, std::nullopt, "");
     before = some.modes.has_shapes()
-                 ? matching::pair_at_sensors(some, initial.loaded, initial.modes, options, config.sensor_tolerance_m)
+                 ? matching::pair_at_sensors(some, initial.loaded, initial.modes, config, config.sensor_tolerance_m)
                  : matching::pair_by_order(some, initial.modes.frequency_Hz.size(), compared_modes(some, after));
   }
   std::vector<matching::ComparisonRow> rows = compare("initial", some, initial.modes.frequency_Hz, before);

@@ -166,17 +166,9 @@ io::FieldTable UpdatingConfig::fields() {
       .integer("max_iterations", max_iterations, {1.0, 1e5}, "largest number of steps of one solve at fixed prestress")
       .integer("outer_iterations", outer_iterations, {1.0, 1000.0}, "largest number of prestress states of one search")
       .number("optimality_tolerance", optimality_tolerance, "", {1e-12, 1e-2, true},
-              "projected gradient at convergence of a solve, relative to the gradient at its start")
-      .number("minimum_mac", minimum_mac, "", {0.0, 1.0}, "pairing by MAC: least MAC of a pair; other modes stay unpaired")
-      .number("least_paired", least_paired, "", {0.0, 1.0},
-              "pairing by MAC: least share of the measured modes with a partner; below it the step refuses")
-      .number("maximum_frequency_error", maximum_frequency_error, "", io::positive(),
-              "largest relative frequency difference of a pair; pairing by MAC excludes other pairs, pairing by order warns of "
-              "them")
-      .number("cluster_gap", cluster_gap, "", io::non_negative(),
-              "pairing by MAC: relative frequency gap below which modes count as close")
-      .number("sensor_tolerance", sensor_tolerance_m, "m", io::non_negative(),
-              "largest distance between a sensor and its nearest node")
+              "projected gradient at convergence of a solve, relative to the gradient at its start");
+  add_pairing_keys(table, *this);
+  table
       .boolean("leave_one_out", leave_one_out,
                "leaves out each pair in turn and predicts it by an update to the other pairs (leave_one_out.csv)")
       .choices(
