@@ -6,6 +6,7 @@
 #include <cctype>
 #include <cmath>
 
+#include "core/lists.hpp"
 #include "core/statistics.hpp"
 
 namespace twindeck::diagnosis {
@@ -26,8 +27,7 @@ std::string as_key(std::string name) {
 EffectParameter count(const char* name, double value) { return {name, "", value, value, value, false, false}; }
 
 std::string sentence(const std::vector<FoundStay>& stays, const ModesExplained& before, const ModesExplained& after) {
-  std::vector<std::string> names;
-  for (const FoundStay& stay : stays) names.push_back(stay.name);
+  const auto names = each_of(stays, &FoundStay::name);
   return fmt::format(
       "Stays modelled as bars do not vibrate: {} swing{} with the deck. As cables they raise the modes explained from {} to {} "
       "of {} measured",
@@ -88,7 +88,7 @@ void BarStaysEffect::put_first(Diagnosis& result) const {
 void BarStaysEffect::take_out_entries(Instantiated& entries) const {
   std::erase_if(entries.candidates, [&](const std::unique_ptr<Candidate>& entry) {
     return entry->hypothesis->does(Primitive::element_string) &&
-           std::any_of(stays_.begin(), stays_.end(), [&](const auto& stay) { return entry->location == "stay:" + stay.name; });
+           std::ranges::any_of(stays_, [&](const auto& stay) { return entry->location == "stay:" + stay.name; });
   });
 }
 

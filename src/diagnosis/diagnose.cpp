@@ -34,7 +34,7 @@ std::vector<LocationScore> location_map(const Inference& inference, const Fit& f
   }
   std::vector<LocationScore> map;
   for (const auto& [location, score] : best) map.push_back({location, score});
-  std::stable_sort(map.begin(), map.end(), [](const auto& a, const auto& b) { return a.score > b.score; });
+  std::ranges::stable_sort(map, [](const auto& a, const auto& b) { return a.score > b.score; });
   if (map.size() > kLongestMap) map.resize(kLongestMap);
   return map;
 }

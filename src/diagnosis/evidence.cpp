@@ -8,6 +8,7 @@
 #include <optional>
 
 #include "core/distributions.hpp"
+#include "core/lists.hpp"
 #include "core/statistics.hpp"
 
 namespace twindeck::diagnosis {
@@ -20,8 +21,7 @@ constexpr double kAlpha = 0.05;
 
 /// The support nearest to a channel, "" if coordinates are unknown.
 std::string nearest_support(const std::string& name, const std::vector<matching::Channel>& channels, const Places& places) {
-  const auto channel =
-      std::find_if(channels.begin(), channels.end(), [&](const matching::Channel& c) { return c.name == name; });
+  const auto channel = std::ranges::find_if(channels, [&](const matching::Channel& c) { return c.name == name; });
   const auto supports = places.sets.find("supports");
   if (channel == channels.end() || !channel->x_m || supports == places.sets.end()) return "";
   std::string best;
@@ -144,7 +144,7 @@ std::vector<ChannelFactor> channel_factors(const std::vector<Claim>& claims) {
   for (const Claim& claim : claims) {
     if (claim.kind != Claim::Kind::rms_error) continue;
     by_record[claim.record][claim.name] = std::log1p(0.01 * claim.value);
-    if (std::find(order.begin(), order.end(), claim.name) == order.end()) order.push_back(claim.name);
+    if (!contains(order, claim.name)) order.push_back(claim.name);
   }
   std::map<std::string, std::vector<double>> rest;
   for (const auto& [record, values] : by_record) {

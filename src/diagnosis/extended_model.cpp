@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "core/error.hpp"
+#include "core/lists.hpp"
 
 namespace twindeck::diagnosis {
 
@@ -49,7 +50,7 @@ void scale_materials(fe::Model& model, const std::vector<int>& elements, double 
       fe::Material material = model.materials[static_cast<std::size_t>(element.material)];
       for (fe::Parameter& parameter : model.parameters)  // they still scale the new material
         if ((parameter.target == fe::Target::youngs_modulus || parameter.target == fe::Target::density) &&
-            std::find(parameter.of.begin(), parameter.of.end(), material.name) != parameter.of.end())
+            contains(parameter.of, material.name))
           parameter.of.push_back(material.name + "_" + tag);
       material.name += "_" + tag;
       material.youngs_modulus_Pa *= modulus;
@@ -103,8 +104,8 @@ bool of_support(const fe::Model& model, const fe::Spring& spring, std::string na
   if (name == one_bearing(model, spring)) return !spring.is_damper() && spring.node2 < 0 && !rigid(spring);
   if (spring.is_damper() || spring.node2 >= 0 || group(spring) != name || (asked_rigid && !rigid(spring))) return false;
   if (asked_rigid || !rigid(spring)) return true;
-  return std::none_of(model.springs.begin(), model.springs.end(),
-                      [&](const fe::Spring& other) { return group(other) == name && other.node2 < 0 && !rigid(other); });
+  return std::ranges::none_of(
+      model.springs, [&](const fe::Spring& other) { return group(other) == name && other.node2 < 0 && !rigid(other); });
 }
 
 /// Moves the support to the node of its line nearest to a position.
@@ -228,7 +229,7 @@ bool add_tie(fe::Model& model, const std::string& name, double stiffness) {
 /// Removes parameters of springs that no longer exist: a model folder with them would be refused.
 void drop_parameters_of_nothing(fe::Model& model, Eigen::VectorXd& theta) {
   const auto gone = [&](const std::string& group) {
-    return std::none_of(model.springs.begin(), model.springs.end(), [&](const fe::Spring& s) { return s.group == group; });
+    return std::ranges::none_of(model.springs, [&](const fe::Spring& s) { return s.group == group; });
   };
   std::vector<Index> kept;
   for (std::size_t p = 0; p < model.parameters.size(); ++p) {
@@ -304,8 +305,8 @@ bool apply(fe::ParametricSystem& system, Eigen::VectorXd& theta, const Cause& ca
   const auto named = action.text.find("direction");
   const auto is_of_node = [&](const fe::DofLabel& dof) { return dof.node == name && dof.direction <= 2; };
   const bool upwards = named != action.text.end() && named->second == "vertical" &&
-                       std::count_if(system.dofs.begin(), system.dofs.end(), is_of_node) == 3;  // else in all directions
-  fe::Term term;  // on the diagonal, which is in every pattern
+                       std::ranges::count_if(system.dofs, is_of_node) == 3;  // else in all directions
+  fe::Term term;                                                             // on the diagonal, which is in every pattern
   term.label = c.id();
   for (std::size_t i = 0; i < system.dofs.size(); ++i) {
     if (!is_of_node(system.dofs[i]) || (upwards && system.dofs[i].direction != 2)) continue;
@@ -321,8 +322,8 @@ bool apply(fe::ParametricSystem& system, Eigen::VectorXd& theta, const Cause& ca
 
 bool is_of_a_parameter(const Cause& cause, const std::vector<fe::Parameter>& parameters) {
   const Candidate& c = *cause.candidate;
-  return c.hypothesis->set == "groups" && std::any_of(parameters.begin(), parameters.end(),
-                                                      [&](const fe::Parameter& p) { return "group:" + p.name == c.location; });
+  return c.hypothesis->set == "groups" &&
+         std::ranges::any_of(parameters, [&](const fe::Parameter& p) { return "group:" + p.name == c.location; });
 }
 
 }  // namespace

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <string>
 
+#include "core/lists.hpp"
 #include "linalg/dense.hpp"
 
 namespace twindeck::diagnosis {
@@ -53,7 +54,7 @@ std::vector<Contrast> contrasts_of(const FeatureSet& features) {
   const auto add = [&](const std::string& key, std::size_t from, std::size_t end) {
     Contrast contrast{key, VectorXd::Zero(std::ssize(used))};
     for (std::size_t c = 0; c < used.size(); ++c) {
-      const auto state = std::find(states.begin(), states.end(), features.conditions[c].state) - states.begin();
+      const auto state = std::ranges::find(states, features.conditions[c].state) - states.begin();
       if (used[c] && state >= static_cast<Index>(from) && state < static_cast<Index>(end))
         contrast.weight[static_cast<Index>(c)] = 1.0;
     }
@@ -69,7 +70,7 @@ namespace {
 /// Contrast of a candidate that acts in some states only.
 int contrast_of_states(const Candidate& candidate, const std::vector<Contrast>& contrasts) {
   const auto at = [&](const auto& is_it) {
-    const auto found = std::find_if(contrasts.begin(), contrasts.end(), is_it);
+    const auto found = std::ranges::find_if(contrasts, is_it);
     return found == contrasts.end() ? -1 : static_cast<int>(found - contrasts.begin());
   };
   const auto named = [&](const std::string& key) { return at([&](const Contrast& c) { return c.key == key; }); };
@@ -91,7 +92,7 @@ int contrast_of_states(const Candidate& candidate, const std::vector<Contrast>& 
 std::vector<int> contrasts_of(const Candidate& candidate, const std::vector<Contrast>& contrasts) {
   std::vector<int> out;
   const auto add = [&](int contrast) {
-    if (contrast >= 0 && std::find(out.begin(), out.end(), contrast) == out.end()) out.push_back(contrast);
+    if (contrast >= 0 && !contains(out, contrast)) out.push_back(contrast);
   };
   if (is_of_a_channel(candidate)) return out;  // the structure stays as it is
   if (!candidate.state.empty()) add(contrast_of_states(candidate, contrasts));

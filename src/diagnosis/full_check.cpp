@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "core/error.hpp"
+#include "core/lists.hpp"
 #include "linalg/generalized_eigen.hpp"
 
 namespace twindeck::diagnosis {
@@ -206,7 +207,7 @@ FullCheck check_against_full(const Structure& structure, const Places& places, c
   for (const Cause& cause : fit.causes)
     for (const ReducedPlace* place : cause.candidate->places)
       for (const int k : place->columns)
-        if (std::find(columns.begin(), columns.end(), k) == columns.end()) columns.push_back(k);
+        if (!contains(columns, k)) columns.push_back(k);
   // The matrices of the map include parameters and element scatter.
   const auto [stiffness, mass] = map.matrices(fit.base, columns);
   Assembly<MatrixXd, ReducedPlace> reduced{stiffness, mass, map.model().sets, fit.base.theta, columns};

@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "core/error.hpp"
+#include "core/lists.hpp"
 #include "core/statistics.hpp"
 #include "diagnosis/form_base.hpp"
 #include "diagnosis/form_frame.hpp"
@@ -164,7 +165,7 @@ class ByLaw {
   /// Separates errors of the model: causes that act equally in all states are no change.
   void part_model_errors() {
     const auto first = std::stable_partition(search_.accounts.begin(), search_.accounts.end(), [&](const LawAccount& account) {
-      return !std::all_of(account.members.begin(), account.members.end(), [&](int m) { return is_model_error(m); });
+      return !std::ranges::all_of(account.members, [&](int m) { return is_model_error(m); });
     });
     search_.model_errors.assign(std::make_move_iterator(first), std::make_move_iterator(search_.accounts.end()));
     search_.accounts.erase(first, search_.accounts.end());
@@ -179,9 +180,7 @@ class ByLaw {
   /// Verdict without a cause: `unknown` if the rows show that something changed, else `none`.
   [[nodiscard]] Verdict without_a_cause() const {
     const double nothing = weight_of_nothing();
-    return std::any_of(search_.else_weight.begin(), search_.else_weight.end(), [&](double w) { return w > nothing; })
-               ? Verdict::unknown
-               : Verdict::none;
+    return std::ranges::any_of(search_.else_weight, [&](double w) { return w > nothing; }) ? Verdict::unknown : Verdict::none;
   }
 
   void judge_accounts() {
@@ -239,9 +238,8 @@ class ByLaw {
     const std::vector<int>& members = search_.accounts.front().members;
     // A fault of a channel appears in all modes, and any of them shows it to the class of gains. So leaving out one mode is no
     // test.
-    const bool of_channels = std::all_of(members.begin(), members.end(), [&](int m) {
-      return is_of_a_channel(*search_.entries[static_cast<std::size_t>(m)].candidate);
-    });
+    const bool of_channels = std::ranges::all_of(
+        members, [&](int m) { return is_of_a_channel(*search_.entries[static_cast<std::size_t>(m)].candidate); });
     if (out_.form->gain.low > 0.0 || out_.form->gain.blocks.empty() || of_channels) return;  // load tests alone have no block
     out_.verdict = without_a_cause();
     reason_ = "the best cause does not predict modes that it was not fitted to";
@@ -278,7 +276,7 @@ class ByLaw {
         effect.cluster.emplace_back("other@global");
         effect.rivals.push_back({"other@global", nullptr, something_else, {}});
       }
-    if (std::all_of(slots.begin(), slots.end(), [](const Slot& slot) { return slot.members.size() == 1; }) &&
+    if (std::ranges::all_of(slots, [](const Slot& slot) { return slot.members.size() == 1; }) &&
         !judgement_.something_else_in_set)
       out_.verdict = Verdict::named;
     return true;
@@ -336,7 +334,7 @@ class ByLaw {
     for (const int m : account.members) {
       bool found = is_model_error(m);
       for (std::size_t s = 0; s < slots.size() && !found; ++s) {
-        const auto at = std::find(slots[s].members.begin(), slots[s].members.end(), m);
+        const auto at = std::ranges::find(slots[s].members, m);
         if (at == slots[s].members.end() || taken[s]) continue;
         slots[s].probability[static_cast<std::size_t>(at - slots[s].members.begin())] += probability;
         taken[s] = found = true;
@@ -360,8 +358,7 @@ class ByLaw {
     std::vector<const Scored*> members;
     for (std::size_t i = 0; i < slot.members.size(); ++i) {
       const Candidate* candidate = search_.entries[static_cast<std::size_t>(slot.members[i])].candidate;
-      const auto scored =
-          std::find_if(out_.ranking.begin(), out_.ranking.end(), [&](const Scored& s) { return s.candidate == candidate; });
+      const auto scored = std::ranges::find_if(out_.ranking, [&](const Scored& s) { return s.candidate == candidate; });
       if (scored != out_.ranking.end()) members.push_back(&*scored);
       effect.cluster.push_back(candidate->id());
       if (i == 0) continue;
@@ -428,7 +425,7 @@ void add_open_modes(const FeatureMap& map, const ByLaw& engine, Diagnosis& out) 
   std::vector<std::string> modes;
   for (std::size_t m = 0; m < map.measured_modes().size(); ++m) {
     const MeasuredMode& mode = map.measured_modes()[m];
-    const bool opened = std::find(engine.opened().begin(), engine.opened().end(), static_cast<int>(m)) != engine.opened().end();
+    const bool opened = contains(engine.opened(), static_cast<int>(m));
     if (out.after.all.paired[m] >= 0 && !opened) continue;
     modes.push_back(fmt::format("{} ({:.4g} Hz{}{})", mode.label, mode.frequency_Hz,
                                 map.features().conditions.size() > 1 ? ", " : "",
@@ -442,7 +439,7 @@ void add_open_modes(const FeatureMap& map, const ByLaw& engine, Diagnosis& out) 
 std::string message_by_law(const Diagnosis& out, const ByLaw& engine) {
   if (out.verdict == Verdict::named || out.verdict == Verdict::ambiguous) return out.effects.front().sentence;
   const auto& modes = out.with_form->measured_modes();
-  const bool shapes = std::any_of(modes.begin(), modes.end(), [](const MeasuredMode& mode) { return !mode.real_rows.empty(); });
+  const bool shapes = std::ranges::any_of(modes, [](const MeasuredMode& mode) { return !mode.real_rows.empty(); });
   const std::string scales =
       fmt::format("the model's form is off by about {:.1f} % in frequency{}", 100.0 * out.form->frequency.level,
                   shapes ? fmt::format(" and {:.1f} % in shape", 100.0 * out.form->shape.level) : "");

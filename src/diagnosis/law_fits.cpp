@@ -4,6 +4,7 @@
 #include <cmath>
 #include <set>
 
+#include "core/lists.hpp"
 #include "core/parallel.hpp"
 #include "diagnosis/form_base.hpp"
 #include "diagnosis/form_magnitudes.hpp"
@@ -94,9 +95,9 @@ void score_at_base(const OneLaw& law, const LawSearch& search, LawAccount& accou
 namespace {
 
 bool acts_in_contrast(const LawSearch& search, const LawAccount& account, int contrast) {
-  return std::any_of(account.members.begin(), account.members.end(), [&](int m) {
+  return std::ranges::any_of(account.members, [&](int m) {
     const std::vector<int>& own = search.entries[static_cast<std::size_t>(m)].contrasts;
-    return std::find(own.begin(), own.end(), contrast) != own.end();
+    return contains(own, contrast);
   });
 }
 
@@ -182,7 +183,7 @@ void refine_by_law(const LawSetting& setting, const LawSearch& search, LawAccoun
     for (const VectorXd& x : starts) {
       Fit with = setting.informed.fit(start, x);
       const auto is_same = [&](const VectorXd& before) { return (with.map.x - before).norm() < kOneFit; };
-      if (!with.made() || std::any_of(account.fitted.begin(), account.fitted.end(), is_same)) continue;
+      if (!with.made() || std::ranges::any_of(account.fitted, is_same)) continue;
       account.fitted.push_back(with.map.x);
       weigh_fit(setting, search, account, tau, std::move(with));
     }

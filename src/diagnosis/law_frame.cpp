@@ -4,6 +4,7 @@
 #include <set>
 
 #include "core/error.hpp"
+#include "core/lists.hpp"
 #include "linalg/dense.hpp"
 
 namespace twindeck::diagnosis {
@@ -95,8 +96,7 @@ FitSystem law_system(const Inference& plain, const Fit& fit, const std::vector<C
   for (const int mode : fit.all.paired) out.unpaired.push_back(mode < 0);
   const std::vector<PairedMode>& paired = out.modes.paired;
   const FormColumns form = form_columns(out.modes.structures, paired, fit.all.g);
-  std::vector<double> frequency_Hz;
-  for (const MeasuredMode& mode : map.measured_modes()) frequency_Hz.push_back(mode.frequency_Hz);
+  const auto frequency_Hz = each_of(map.measured_modes(), &MeasuredMode::frequency_Hz);
   const MatrixXd rotations = close_rotations(paired, frequency_Hz, map.values());
   const MatrixXd fixed =
       beside({j(Eigen::all, known), kWideScale * fit.map.scales, rotations(rows, Eigen::all)}, std::ssize(rows));

@@ -9,6 +9,7 @@
 #include <string>
 
 #include "core/error.hpp"
+#include "core/lists.hpp"
 #include "core/parallel.hpp"
 #include "diagnosis/law_fits.hpp"
 #include "linalg/dense.hpp"
@@ -151,13 +152,10 @@ std::vector<HeldOutMode> held_out_modes(const LawSetting& setting, const LawSear
       [&](int done, int of) { setting.progress("modes left out", done, of); });
   for (std::size_t m = 0; m < map.measured_modes().size(); ++m) {
     const MeasuredMode& mode = map.measured_modes()[m];
-    const auto row = std::find(setting.plain.training().begin(), setting.plain.training().end(), mode.frequency);
+    const auto row = std::ranges::find(setting.plain.training(), mode.frequency);
     const auto at = static_cast<int>(row - setting.plain.training().begin());
-    const auto block = std::find_if(blocks.begin(), blocks.end(), [&](const std::vector<int>& rows) {
-      return std::find(rows.begin(), rows.end(), at) != rows.end();
-    });
-    if (row == setting.plain.training().end() || block == blocks.end() ||
-        std::find(leader.opened.begin(), leader.opened.end(), static_cast<int>(m)) != leader.opened.end())
+    const auto block = std::ranges::find_if(blocks, [&](const std::vector<int>& rows) { return contains(rows, at); });
+    if (row == setting.plain.training().end() || block == blocks.end() || contains(leader.opened, static_cast<int>(m)))
       continue;
     const Prediction &without = before[static_cast<std::size_t>(block - blocks.begin())],
                      &with = after[static_cast<std::size_t>(block - blocks.begin())];
@@ -175,18 +173,16 @@ std::vector<HeldOutMode> held_out_modes(const LawSetting& setting, const LawSear
 
 bool each_cause_predicts(const LawSetting& setting, const LawSearch& search, const LawAccount& set, int bootstrap,
                          std::uint64_t seed) {
-  const auto is_member = [&](int m) { return std::find(set.members.begin(), set.members.end(), m) != set.members.end(); };
+  const auto is_member = [&](int m) { return contains(set.members, m); };
   const LawAccount* fewer = nullptr;
   for (const auto* accounts : {&search.accounts, &search.model_errors})
     for (const LawAccount& account : *accounts)
       if (account.scored && account.members.size() < set.members.size() &&
-          (fewer == nullptr || account.log_weight > fewer->log_weight) &&
-          std::all_of(account.members.begin(), account.members.end(), is_member))
+          (fewer == nullptr || account.log_weight > fewer->log_weight) && std::ranges::all_of(account.members, is_member))
         fewer = &account;
   if (!set.scored || fewer == nullptr) return true;
-  const bool of_channels = std::all_of(set.members.begin(), set.members.end(), [&](int m) {
-    return is_of_a_channel(*search.entries[static_cast<std::size_t>(m)].candidate) ||
-           std::find(fewer->members.begin(), fewer->members.end(), m) != fewer->members.end();
+  const bool of_channels = std::ranges::all_of(set.members, [&](int m) {
+    return is_of_a_channel(*search.entries[static_cast<std::size_t>(m)].candidate) || contains(fewer->members, m);
   });
   if (of_channels) return true;
   const PredictiveGain gain = gain_of_odds(mode_blocks(setting.plain, search.base), explanation_by_law(search, *fewer),

@@ -154,7 +154,7 @@ class Screen {
 
 Index first_of_equals(const VectorXd& terms) {
   const double top = terms.maxCoeff(), rounding = 1e-9 * (1.0 + std::abs(top));
-  return std::find_if(terms.begin(), terms.end(), [&](double t) { return t >= top - rounding; }) - terms.begin();
+  return std::ranges::find_if(terms, [&](double t) { return t >= top - rounding; }) - terms.begin();
 }
 
 std::vector<ActiveClass> lasting_classes(const LawSystem& system) {
@@ -206,7 +206,7 @@ void collect_entries(const LawSetting& setting, LawSearch& search, const std::ve
     const auto shows = [&](const Inference::Tried& t) {
       return setting.informed.whitened(search.base, t.change).norm() > kShows;
     };
-    if (std::none_of(entry.tried.begin(), entry.tried.end(), shows)) continue;
+    if (std::ranges::none_of(entry.tried, shows)) continue;
     const std::vector<bool> acts = acting_conditions(setting, *entry.candidate, entry.contrast);
     entry.first_signature = std::ssize(columns);
     for (const Inference::Tried& tried : entry.tried) {
@@ -234,8 +234,7 @@ void screen_by_law(const LawSetting& setting, LawSearch& search, const OneLaw& l
 }
 
 void sort_accounts(std::vector<LawAccount>& accounts) {
-  std::stable_sort(accounts.begin(), accounts.end(),
-                   [](const LawAccount& a, const LawAccount& b) { return a.log_weight > b.log_weight; });
+  std::ranges::stable_sort(accounts, [](const LawAccount& a, const LawAccount& b) { return a.log_weight > b.log_weight; });
 }
 
 }  // namespace twindeck::diagnosis

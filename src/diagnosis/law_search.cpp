@@ -6,6 +6,7 @@
 #include <map>
 #include <set>
 
+#include "core/lists.hpp"
 #include "core/parallel.hpp"
 #include "diagnosis/law_fits.hpp"
 #include "diagnosis/law_openings.hpp"
@@ -26,10 +27,9 @@ constexpr double kFarBelow = -8.0;  // nats against "nothing"; below it no fit c
 VectorXd start_of_set(const LawSearch& search, const LawAccount& set) {
   VectorXd out = search.none.tau;
   const auto is_member = [&](const LawAccount& account) {
-    return account.members.size() == 1 &&
-           std::find(set.members.begin(), set.members.end(), account.members.front()) != set.members.end();
+    return account.members.size() == 1 && contains(set.members, account.members.front());
   };
-  if (const auto best = std::find_if(search.accounts.begin(), search.accounts.end(), is_member); best != search.accounts.end())
+  if (const auto best = std::ranges::find_if(search.accounts, is_member); best != search.accounts.end())
     out = best->evidence.tau;
   out.tail(out.size() - kFirstContrast) *= 0.0;
   for (const int m : set.members)
@@ -44,14 +44,12 @@ std::vector<LawAccount> sets_beside(const LawSetting& setting, const LawSearch& 
   LawSearch beside;
   beside.base = leader.with;
   beside.system = law_system(setting.plain, beside.base, setting.contrasts);
-  std::vector<const Candidate*> candidates;
-  for (const LawEntry* entry : among) candidates.push_back(entry->candidate);
-  collect_entries(setting, beside, candidates);
+  collect_entries(setting, beside, each_of(among, &LawEntry::candidate));
   const OneLaw law(beside.system);
   std::vector<LawAccount> out;
   if (!can_be_weighed(beside.system)) return out;
   const auto known_as = [&](const LawEntry& entry) {
-    return *std::find_if(among.begin(), among.end(), [&](const LawEntry* e) { return e->candidate == entry.candidate; });
+    return *std::ranges::find_if(among, [&](const LawEntry* e) { return e->candidate == entry.candidate; });
   };
   for (LawEntry& entry : beside.entries) entry.log_prior = known_as(entry)->log_prior;
   screen_by_law(setting, beside, law);
@@ -63,7 +61,7 @@ std::vector<LawAccount> sets_beside(const LawSetting& setting, const LawSearch& 
     if (out.size() == kTried || found.log_weight < beside.none.log_evidence + kFarBelow) continue;
     const auto position = static_cast<int>(entry - search.entries.data());
     const auto is_known = [&](int m) { return is_same_cause(search.entries[static_cast<std::size_t>(m)], *entry); };
-    if (std::any_of(leader.members.begin(), leader.members.end(), is_known)) continue;
+    if (std::ranges::any_of(leader.members, is_known)) continue;
     LawAccount set;
     set.members = leader.members;
     set.members.push_back(position);
@@ -188,8 +186,8 @@ bool is_same_cause(const LawEntry& a, const LawEntry& b) {
 bool is_model_error(const LawSetting& setting, const LawEntry& entry) {
   const FeatureSet& features = setting.plain.map().features();
   return entry.contrast < 0 && !is_of_a_channel(*entry.candidate) && states_of(features).size() > 1 &&
-         std::all_of(features.conditions.begin(), features.conditions.end(),
-                     [&](const Condition& condition) { return entry.candidate->acts_in(condition); });
+         std::ranges::all_of(features.conditions,
+                             [&](const Condition& condition) { return entry.candidate->acts_in(condition); });
 }
 
 const LawAccount& account_to_take(const std::vector<const LawAccount*>& possible) {

@@ -119,7 +119,7 @@ struct Promising {
 };
 
 void keep_best(std::vector<Promising>& found) {
-  std::stable_sort(found.begin(), found.end(), [](const Promising& a, const Promising& b) { return a.value > b.value; });
+  std::ranges::stable_sort(found, [](const Promising& a, const Promising& b) { return a.value > b.value; });
   if (found.size() > kTried) found.resize(kTried);
 }
 
@@ -128,7 +128,7 @@ std::vector<Promising> larger_sets(const SetScreen& screen, const std::vector<Pr
   for (const Promising& from : smaller)
     for (std::size_t m = 0; m < screen.size(); ++m) {
       std::vector<std::size_t> set = from.set;
-      if (std::any_of(set.begin(), set.end(), [&](std::size_t other) { return screen.is_same_cause(m, other); })) continue;
+      if (std::ranges::any_of(set, [&](std::size_t other) { return screen.is_same_cause(m, other); })) continue;
       set.push_back(m);
       std::sort(set.begin(), set.end());
       sets.insert(std::move(set));

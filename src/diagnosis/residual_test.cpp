@@ -47,7 +47,7 @@ int free_scales(const Inference& inference, const std::vector<int>& block) {
   std::set<int> rows;
   for (const int i : block) rows.insert(inference.training()[static_cast<std::size_t>(i)]);
   const auto inside = [&](const std::vector<int>& of) {
-    return !of.empty() && std::all_of(of.begin(), of.end(), [&](int r) { return rows.contains(r); });
+    return !of.empty() && std::ranges::all_of(of, [&](int r) { return rows.contains(r); });
   };
   int count = 0;
   for (const MeasuredMode& mode : inference.map().measured_modes())
@@ -148,7 +148,7 @@ ResidualTest residual_test(const Inference& inference, const Fit& fit) {
     block.p_value = chi_squared_tail(block.statistic, block.dof);
     test.blocks.push_back(block);
   }
-  std::sort(test.blocks.begin(), test.blocks.end(), [](const BlockMisfit& a, const BlockMisfit& b) {
+  std::ranges::sort(test.blocks, [](const BlockMisfit& a, const BlockMisfit& b) {
     return std::tie(a.p_value, a.name) < std::tie(b.p_value, b.name);
   });
   if (!test.blocks.empty())

@@ -8,6 +8,7 @@
 #include <set>
 
 #include "core/error.hpp"
+#include "core/lists.hpp"
 #include "diagnosis/features/same_modes.hpp"
 
 namespace twindeck::diagnosis {
@@ -25,17 +26,15 @@ void keep(FeatureSet& features, const std::vector<Eigen::Index>& kept) {
 
 void choose_rows(const RowChoice& choice, FeatureSet& features) {
   if (choice.names_alike) name_modes_alike(features);
-  const auto left_out = [&](const std::string& what) {
-    return std::find(choice.left_out.begin(), choice.left_out.end(), what) != choice.left_out.end();
-  };
+  const auto left_out = [&](const std::string& what) { return contains(choice.left_out, what); };
   for (const std::string& type : choice.left_out) {
     const auto& known = row_type_names();
     if (type.starts_with("mode:")) {
-      if (std::none_of(features.rows.begin(), features.rows.end(), [&](const auto& row) { return row.mode == type.substr(5); }))
+      if (std::ranges::none_of(features.rows, [&](const auto& row) { return row.mode == type.substr(5); }))
         throw InputError({"", 0, "left_out"}, fmt::format("no row has the mode of '{}'", type), "");
       continue;
     }
-    if (std::find(known.begin(), known.end(), type) == known.end())
+    if (!contains(known, type))
       throw InputError({"", 0, "left_out"}, fmt::format("'{}' is no type of row{}", type, did_you_mean(type, known)), "");
   }
   std::set<std::pair<int, std::string>> high;
@@ -110,7 +109,7 @@ std::optional<Finding> leave_out_imaginary(const ReducedModel& model, FeatureSet
 }
 
 bool has_rows_of_modes(const FeatureSet& features) {
-  return std::any_of(features.rows.begin(), features.rows.end(), [](const Row& row) { return !is_static(row.type); });
+  return std::ranges::any_of(features.rows, [](const Row& row) { return !is_static(row.type); });
 }
 
 void hold_out(const std::vector<std::string>& rules, FeatureSet& features) {

@@ -1,10 +1,10 @@
 #include "diagnosis/scatter_scales.hpp"
 
-#include <algorithm>
 #include <array>
 #include <cmath>
 #include <map>
 
+#include "core/lists.hpp"
 #include "core/statistics.hpp"
 #include "linalg/dense.hpp"
 
@@ -85,9 +85,8 @@ std::vector<ScatterScale> scatter_scales(const Inference& inference, const Fit& 
   MatrixXd parameters(j.rows(), j.cols()), element_scatter(j.rows(), j.cols());
   Index p = 0, w = 0;
   for (Index c = 0; c < j.cols(); ++c) {
-    const bool of_work = c < static_cast<Index>(nuisances.size()) &&
-                         std::find(kElementScatter.begin(), kElementScatter.end(),
-                                   nuisances[static_cast<std::size_t>(c)].kind) != kElementScatter.end();
+    const bool of_work =
+        c < static_cast<Index>(nuisances.size()) && contains(kElementScatter, nuisances[static_cast<std::size_t>(c)].kind);
     (of_work ? element_scatter.col(w++) : parameters.col(p++)) = j.col(c);
   }
   MarginalLikelihood likelihood;

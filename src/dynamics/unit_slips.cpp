@@ -300,7 +300,7 @@ std::vector<double> ratios_in_order(const MeasuredFrequencies& measured, const E
 
 /// Whether a parameter's bounds reach a factor of stiffness over mass.
 bool parameters_reach(const std::vector<fe::Parameter>& parameters, double stiffness_over_mass) {
-  return std::any_of(parameters.begin(), parameters.end(), [&](const fe::Parameter& p) {
+  return std::ranges::any_of(parameters, [&](const fe::Parameter& p) {
     if (!(p.initial > 0.0) || !(p.lower > 0.0)) return false;
     const bool of_mass =
         p.target == fe::Target::density || p.target == fe::Target::point_mass || p.target == fe::Target::matrix_mass;
@@ -316,7 +316,7 @@ std::vector<std::string> outliers(const MeasuredFrequencies& measured) {
   const Eigen::VectorXd& measured_Hz = measured.frequency_Hz;
   std::vector<Index> order(static_cast<std::size_t>(measured_Hz.size()));
   for (std::size_t i = 0; i < order.size(); ++i) order[i] = static_cast<Index>(i);
-  std::sort(order.begin(), order.end(), [&](Index a, Index b) { return measured_Hz[a] < measured_Hz[b]; });
+  std::ranges::sort(order, [&](Index a, Index b) { return measured_Hz[a] < measured_Hz[b]; });
   std::vector<std::string> slips;
   for (std::size_t gap = 1; gap < order.size(); ++gap) {
     const double below = measured_Hz[order[gap - 1]], above = measured_Hz[order[gap]];

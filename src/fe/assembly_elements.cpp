@@ -238,7 +238,7 @@ ElementMatrix point_mass(const PointMass& mass) {
 
 std::vector<std::uint8_t> sides_beside_four_nodes(const Model& model) {
   std::vector<std::uint8_t> straight(model.elements.size(), 0);
-  if (std::none_of(model.elements.begin(), model.elements.end(), is_triangle)) return straight;
+  if (std::ranges::none_of(model.elements, is_triangle)) return straight;
   const auto side = [](const Element& e, std::size_t i) {
     return std::minmax({e.nodes[i], e.nodes[(i + 1) % e.nodes.size()]});
   };

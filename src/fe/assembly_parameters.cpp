@@ -1,17 +1,14 @@
 #include "fe/assembly_parameters.hpp"
 
-#include <algorithm>
-
 #include "core/error.hpp"
+#include "core/lists.hpp"
 #include "fe/assembly.hpp"
 
 namespace twindeck::fe {
 
 namespace {
 
-bool names(const Parameter& parameter, const std::string& name) {
-  return std::find(parameter.of.begin(), parameter.of.end(), name) != parameter.of.end();
-}
+bool names(const Parameter& parameter, const std::string& name) { return contains(parameter.of, name); }
 
 /// That of the first part which the parameter names.
 template <typename Part>

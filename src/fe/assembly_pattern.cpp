@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "core/error.hpp"
+#include "core/lists.hpp"
 
 namespace twindeck::fe {
 
@@ -34,11 +35,7 @@ std::vector<std::vector<int>> couple_nodes(const Model& model, const DofMap& map
   for (const Element& element : model.elements) couple(element.nodes);
   for (const Spring& spring : model.springs)
     if (spring.node2 >= 0) couple({spring.node, spring.node2});
-  for (const MatrixElement& element : model.matrix_elements) {
-    std::vector<int> nodes;
-    for (const MatrixElement::Dof& dof : element.dofs) nodes.push_back(dof.node);
-    couple(nodes);
-  }
+  for (const MatrixElement& element : model.matrix_elements) couple(each_of(element.dofs, &MatrixElement::Dof::node));
   for (auto& list : neighbours) {
     std::sort(list.begin(), list.end());
     list.erase(std::unique(list.begin(), list.end()), list.end());

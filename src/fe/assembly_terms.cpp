@@ -1,7 +1,6 @@
 #include "fe/assembly_terms.hpp"
 
-#include <algorithm>
-
+#include "core/lists.hpp"
 #include "core/parallel.hpp"
 #include "fe/assembly_pattern.hpp"
 
@@ -11,7 +10,7 @@ std::optional<ParameterFactor> factor_of(const Model& model, Target target, cons
   for (std::size_t p = 0; p < model.parameters.size(); ++p) {
     const Parameter& parameter = model.parameters[p];
     if (parameter.target != target) continue;
-    if (std::find(parameter.of.begin(), parameter.of.end(), name) == parameter.of.end()) continue;
+    if (!contains(parameter.of, name)) continue;
     return ParameterFactor{static_cast<int>(p), power, parameter.initial};
   }
   return std::nullopt;

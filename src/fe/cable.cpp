@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "core/error.hpp"
+#include "core/lists.hpp"
 #include "fe/assembly_elements.hpp"
 
 namespace twindeck::fe {
@@ -174,7 +175,7 @@ StayChains with_stay_chains(const Model& model, const PrestressState& state, int
   std::vector<double> pull_of_added;
   for (std::size_t i = 0; i < model.elements.size(); ++i) {
     const Element& stay = model.elements[i];
-    if (stay.type != ElementType::stay || std::find(names.begin(), names.end(), stay.name) == names.end()) continue;
+    if (stay.type != ElementType::stay || !contains(names, stay.name)) continue;
     const double pull = state.stay_pull_N[static_cast<Eigen::Index>(i)];
     if (pull <= 0.0)
       throw InputError({model.source, 0, stay.name}, "has no pull, a chain of it would not hang", "give the model a prestress");

@@ -92,7 +92,7 @@ void check_sizes(const linalg::SparseMatrix& lower, const std::vector<DofLabel>&
 }
 
 bool mass_is_a_sum_of_squares(const Model& model) {
-  return std::all_of(model.matrix_elements.begin(), model.matrix_elements.end(), [](const MatrixElement& element) {
+  return std::ranges::all_of(model.matrix_elements, [](const MatrixElement& element) {
     if (element.mass.size() == 0) return true;
     const Eigen::MatrixXd mass = conservative_part(element).mass.matrix;
     return mass.allFinite() && is_semidefinite(mass);

@@ -2,11 +2,11 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <cmath>
 #include <map>
 #include <set>
 
+#include "core/lists.hpp"
 #include "fe/assembly.hpp"
 
 namespace twindeck::fe {
@@ -53,14 +53,14 @@ void check_names(const Model& model, const Parameter& p) {
   const std::vector<std::string> known = names_of_target(model, p.target);
   if (p.of.empty()) refuse(model, p, "names nothing that it scales", fmt::format("name a {}", kind_of(p.target)));
   for (const std::string& name : p.of)
-    if (std::find(known.begin(), known.end(), name) == known.end())
+    if (!contains(known, name))
       refuse(model, p, fmt::format("there is no {} '{}'{}", kind_of(p.target), name, did_you_mean(name, known)),
              fmt::format("known: {}", fmt::join(known, ", ")));
 }
 
 void check_unit(const Model& model, const Parameter& p) {
   const std::vector<std::string> known = units_of(p.target);
-  if (p.unit.empty() || std::find(known.begin(), known.end(), p.unit) != known.end()) return;
+  if (p.unit.empty() || contains(known, p.unit)) return;
   refuse(model, p, fmt::format("its unit is '{}', expected {}", p.unit, fmt::join(known, " or ")),
          "initial, lower and upper are in SI units, as the model's tables are; - is a factor");
 }
@@ -88,7 +88,7 @@ void check_tapers(const Model& model, const Parameter& p) {
   if (p.target != Target::area) return;
   const auto is_named = [&](int section) {
     const std::string& name = model.sections[static_cast<std::size_t>(section)].name;
-    return std::find(p.of.begin(), p.of.end(), name) != p.of.end();
+    return contains(p.of, name);
   };
   for (const Element& e : model.elements)
     if (e.section2 >= 0 && is_named(e.section) != is_named(e.section2))

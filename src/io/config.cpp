@@ -2,10 +2,10 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <cmath>
 #include <utility>
 
+#include "core/lists.hpp"
 #include "core/units.hpp"
 #include "io/config_field.hpp"
 #include "io/path_name.hpp"
@@ -88,7 +88,7 @@ Place at_line(const TomlValue& node, Place place) {
 
 std::string read_choice(const TomlValue& node, const std::vector<std::string>& allowed, const Place& place) {
   const std::string value = text_of(node, place);
-  if (std::find(allowed.begin(), allowed.end(), value) == allowed.end())
+  if (!contains(allowed, value))
     throw InputError(place, "is " + toml_text(value) + did_you_mean(value, allowed),
                      fmt::format("choose one of {}", fmt::join(allowed, ", ")));
   return value;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <map>
 
+#include "core/lists.hpp"
 #include "io/config.hpp"
 #include "io/config_field.hpp"
 
@@ -51,15 +52,13 @@ struct Reader {
   }
 
   [[nodiscard]] bool is_group(const std::string& key) const {
-    return std::any_of(fields.begin(), fields.end(), [&](const auto& field) { return field->key.starts_with(key + "."); });
+    return std::ranges::any_of(fields, [&](const auto& field) { return field->key.starts_with(key + "."); });
   }
 
   [[noreturn]] void unknown(const std::string& key, long line) const {
     for (const FieldTable::Broken& old : retired)
       if (old.key == key) throw InputError({file, line, key}, old.problem, old.mend);
-    std::vector<std::string> known;
-    for (const auto& field : fields) known.push_back(field->key);
-    refuse_unknown_key(file, line, above, key, known);
+    refuse_unknown_key(file, line, above, key, each_of(fields, [](const auto& field) { return field->key; }));
   }
 
   void table(const TomlValue::Table& values, const std::string& prefix) const {
@@ -103,8 +102,7 @@ struct Reader {
   /// Refuses an element of the same name as an earlier one. @param lines  of the names so far
   void refuse_second(const FieldTable::Field& field, const TomlValue::Table& element,
                      std::map<std::string, long>& lines) const {
-    const auto name =
-        std::find_if(element.begin(), element.end(), [&](const TomlEntry& entry) { return entry.key == field.named_by; });
+    const auto name = std::ranges::find_if(element, [&](const TomlEntry& entry) { return entry.key == field.named_by; });
     if (field.named_by.empty() || name == element.end()) return;
     const auto [first, is_new] = lines.emplace(shown(name->value), name->line);
     if (!is_new)

@@ -30,7 +30,7 @@ void check_inner_name(const std::string& name, const std::string& what, const Pl
   constexpr std::string_view slashes = "/\\";
   std::string problem;
   if (name.empty()) problem = "is empty";
-  if (std::any_of(name.begin(), name.end(), is_control)) problem = "is '" + name + "', which holds a control character";
+  if (std::ranges::any_of(name, is_control)) problem = "is '" + name + "', which holds a control character";
   if (!name.empty() && slashes.find(name.front()) != std::string_view::npos)
     problem = "is '" + name + "', which begins with a slash";
   for (std::size_t at = 0; at < name.size();) {

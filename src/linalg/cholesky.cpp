@@ -91,7 +91,7 @@ std::shared_ptr<const Symbolic> symbolic_of(const SparseMatrix& lower) {
   static std::mutex mutex;
   static std::deque<std::shared_ptr<const Symbolic>> known;  // newest first
   const std::lock_guard lock(mutex);
-  const auto found = std::find_if(known.begin(), known.end(), [&](const auto& one) { return one->is_of(lower); });
+  const auto found = std::ranges::find_if(known, [&](const auto& one) { return one->is_of(lower); });
   if (found != known.end()) return *found;
   known.push_front(std::make_shared<const Symbolic>(lower));
   if (known.size() > kept) known.pop_back();

@@ -18,7 +18,7 @@ using Eigen::Index;
 const std::string& label(const Measured& measured, Index i) { return measured.labels[static_cast<std::size_t>(i)]; }
 
 void sort_by_measured(std::vector<ModePair>& pairs) {
-  std::sort(pairs.begin(), pairs.end(), [](const auto& a, const auto& b) { return a.experimental < b.experimental; });
+  std::ranges::sort(pairs, [](const auto& a, const auto& b) { return a.experimental < b.experimental; });
 }
 
 }  // namespace
@@ -40,7 +40,7 @@ Pairing pair_as_published(const Measured& measured, Index n_numerical, const std
   Pairing pairing;
   pairing.method = "published";
   for (const NamedPair& pair : matching::read_pairs(published, n_numerical, place, "raise n_modes")) {
-    const auto at = std::find(measured.labels.begin(), measured.labels.end(), pair.experimental);
+    const auto at = std::ranges::find(measured.labels, pair.experimental);
     if (at != measured.labels.end())
       pairing.pairs.push_back({static_cast<Index>(at - measured.labels.begin()), pair.numerical, kUnknown, false});
     else

@@ -48,7 +48,7 @@ std::vector<std::string> worse_shapes(const std::vector<ComparisonRow>& comparis
 std::vector<std::string> shared_shapes(const Measured& measured, const std::vector<ComparisonRow>& comparison) {
   std::vector<Index> used;
   for (Index i = 0; i < measured.modes.size(); ++i)
-    if (std::any_of(comparison.begin(), comparison.end(), [&](const ComparisonRow& row) {
+    if (std::ranges::any_of(comparison, [&](const ComparisonRow& row) {
           return row.stage == "after" && row.experimental == measured.labels[static_cast<std::size_t>(i)];
         }))
       used.push_back(i);

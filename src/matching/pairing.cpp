@@ -70,7 +70,7 @@ bool has_a_shape(const Eigen::Ref<const Eigen::VectorXcd>& measured) {
 std::vector<Index> lowest_first(const Eigen::VectorXd& frequency) {
   std::vector<Index> order(static_cast<std::size_t>(frequency.size()));
   std::iota(order.begin(), order.end(), Index{0});
-  std::stable_sort(order.begin(), order.end(), [&](Index a, Index b) { return frequency[a] < frequency[b]; });
+  std::ranges::stable_sort(order, [&](Index a, Index b) { return frequency[a] < frequency[b]; });
   return order;
 }
 

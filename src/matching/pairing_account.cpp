@@ -40,7 +40,7 @@ std::vector<int> same_shapes(const Eigen::MatrixXd& mac) {
 std::vector<int> same_shapes_in_order(const Eigen::MatrixXd& mac, const Eigen::VectorXd& measured_Hz) {
   std::vector<int> order(static_cast<std::size_t>(mac.cols())), at(order.size(), -1);
   std::iota(order.begin(), order.end(), 0);
-  std::sort(order.begin(), order.end(), [&](int a, int b) { return measured_Hz[a] < measured_Hz[b]; });
+  std::ranges::sort(order, [&](int a, int b) { return measured_Hz[a] < measured_Hz[b]; });
   Index next = 0;
   for (const int i : order)
     for (Index n = next; n < mac.rows() && at[static_cast<std::size_t>(i)] < 0; ++n)
@@ -84,8 +84,7 @@ PairingAccount account_of(const Measured& measured, const Pairing& pairing, cons
   const double highest = computed_Hz.size() > 0 ? computed_Hz.maxCoeff() : 0.0;
   for (Index i = 0; i < measured.modes.size(); ++i) {
     const std::string& label = measured.labels[static_cast<std::size_t>(i)];
-    const auto pair =
-        std::find_if(pairing.pairs.begin(), pairing.pairs.end(), [&](const auto& p) { return p.experimental == i; });
+    const auto pair = std::ranges::find_if(pairing.pairs, [&](const auto& p) { return p.experimental == i; });
     if (pair == pairing.pairs.end()) {
       const bool reached = measured.modes.frequency_Hz[i] <= highest;
       (reached ? account.unpaired : account.beyond).push_back(label);

@@ -19,7 +19,7 @@ const std::array<std::string, 6> kDirections = {"x", "y", "z", "rx", "ry", "rz"}
 /// Advice for a sensor that lies on no node: another unit, if that brings it to a node.
 std::string mend_of_position(const ModelPoints& points, const Eigen::Vector3d& x_m, double tolerance_m) {
   const auto meets_a_node = [&](double factor) {
-    return std::any_of(points.x_m.begin(), points.x_m.end(), [&](const Eigen::Vector3d& node) {
+    return std::ranges::any_of(points.x_m, [&](const Eigen::Vector3d& node) {
       return (node - factor * x_m).norm() <= tolerance_m * std::max(1.0, factor);
     });
   };
@@ -35,7 +35,7 @@ using Cosines = std::array<double, 6>;  ///< along x … rz
 /// The cosines that a channel's row or the dof's name state; zeros if neither does.
 Cosines stated_cosines(const modal::ShapeDof& dof, const Channel* channel) {
   Cosines cosine{};
-  const auto named = std::find(kDirections.begin(), kDirections.end(), dof.direction);
+  const auto named = std::ranges::find(kDirections, dof.direction);
   if (channel != nullptr && channel->direction.squaredNorm() > 0.0) {
     for (std::size_t d = 0; d < 3; ++d) cosine[d] = channel->direction[static_cast<Index>(d)];
   } else if (named != kDirections.end()) {
@@ -86,7 +86,7 @@ std::size_t node_of(const ModelPoints& points, const modal::ShapeDof& dof, const
                                    points.node[nearest], tolerance_m),
                        mend_of_position(points, *channel->x_m, tolerance_m));
   }
-  const auto by_name = std::find(points.node.begin(), points.node.end(), dof.point);
+  const auto by_name = std::ranges::find(points.node, dof.point);
   if (by_name != points.node.end()) return static_cast<std::size_t>(by_name - points.node.begin());
   throw InputError({measured.source, 0, dof.point},
                    fmt::format("is no node of the model, and channel '{}' has no usable position{}", dof.direction,
@@ -110,7 +110,7 @@ std::vector<std::vector<ChannelPart>> placed(const Measured& measured, const Mod
     const std::size_t node = node_of(points, dof, channel, measured, tolerance_m, doubt);
     Cosines cosine = stated_cosines(dof, channel);
     const bool stated = cosine != Cosines{};
-    if (!stated && std::count_if(points.row[node].begin(), points.row[node].end(), [](Index row) { return row >= 0; }) == 1) {
+    if (!stated && std::ranges::count_if(points.row[node], [](Index row) { return row >= 0; }) == 1) {
       // The node has one degree of freedom, so the channel must measure it.
       for (std::size_t d = 0; d < 6; ++d) cosine[d] = points.row[node][d] >= 0 ? 1.0 : 0.0;
     } else if (!stated) {
@@ -247,7 +247,7 @@ bool move_as_one(const ModelPoints& points, const std::vector<std::size_t>& node
   if (nodes.size() < 2) return true;
   if (points.model == nullptr)  // each degree of freedom is one of its own; without a direction any of them may be meant
     return cosine != std::array<double, 6>{} &&
-           std::none_of(nodes.begin(), nodes.end(), [&](std::size_t node) { return has_dof_along(points, node, cosine); });
+           std::ranges::none_of(nodes, [&](std::size_t node) { return has_dof_along(points, node, cosine); });
   const fe::DofMap& map = map_of(points);
   const Motion first = motion_along(map, nodes.front(), cosine);
   return std::all_of(nodes.begin() + 1, nodes.end(),

@@ -154,7 +154,7 @@ void refuse_what_is_not_carried(const SapTables& tables) {
   for (const auto& [name, rows] : tables.all()) {
     const bool of_structure =
         std::ranges::any_of(structural, [&, &table = name](const auto& s) { return table.starts_with(s); });
-    const bool read = std::ranges::find(sap_tables_read(), name) != sap_tables_read().end();
+    const bool read = contains(sap_tables_read(), name);
     if (!of_structure || read || says_nothing(name)) continue;
     const auto speaking = std::ranges::find_if(rows, [](const SapRow& row) { return !row.is_neutral(); });
     if (speaking == rows.end()) continue;

@@ -78,7 +78,7 @@ BlindTestResult blind_test(const LayoutSettings& config, const VectorXd& frequen
   const double rate_Hz = config.rate_Hz / static_cast<double>(config.downsample);
   std::vector<const ScoredSetup*> chosen;
   for (const std::string& name : config.blind_setups) {
-    const auto at = std::find_if(setups.begin(), setups.end(), [&](const ScoredSetup& s) { return s.name == name; });
+    const auto at = std::ranges::find_if(setups, [&](const ScoredSetup& s) { return s.name == name; });
     TWINDECK_ASSERT(at != setups.end());
     chosen.push_back(&*at);
   }

@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "core/error.hpp"
+#include "core/lists.hpp"
 
 namespace twindeck::sensors {
 
@@ -23,7 +24,7 @@ LayoutChannel channel_at(const LayoutPoint& point, const std::string& direction,
 std::vector<std::string> setup_names(const std::vector<LayoutChannel>& all) {
   std::vector<std::string> names;
   for (const LayoutChannel& channel : all) {
-    if (std::find(names.begin(), names.end(), channel.setup) == names.end()) names.push_back(channel.setup);
+    if (!contains(names, channel.setup)) names.push_back(channel.setup);
   }
   return names;
 }

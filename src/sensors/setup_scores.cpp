@@ -8,6 +8,7 @@
 #include <string>
 
 #include "core/error.hpp"
+#include "core/lists.hpp"
 #include "core/random.hpp"
 
 namespace twindeck::sensors {
@@ -59,14 +60,13 @@ std::vector<Index> moved(const ScoredSetup& setup, const std::vector<LayoutPoint
   std::set<DeckPlace> taken;
   const auto fits = [&](const DeckPlace& target, const Wanted& channels) {
     const auto& lines = places.at.at(target);
-    return !taken.contains(target) &&
-           std::all_of(channels.begin(), channels.end(), [&](const auto& c) { return lines.contains(c.first); });
+    return !taken.contains(target) && std::ranges::all_of(channels, [&](const auto& c) { return lines.contains(c.first); });
   };
   for (auto at = by_place.begin(); at != by_place.end();) {
     const auto& deck = at->first.first;
     const Wanted& channels = at->second;
     const std::vector<double>& choices = places.s_m.at(deck);
-    if (std::none_of(choices.begin(), choices.end(), [&](double s) { return fits({deck, s}, channels); })) {
+    if (std::ranges::none_of(choices, [&](double s) { return fits({deck, s}, channels); })) {
       rows.clear();
       taken.clear();
       at = by_place.begin();
@@ -114,9 +114,8 @@ ScoredSetup from_file(const std::string& name, const std::vector<LayoutChannel>&
   for (const LayoutChannel& channel : sensors::channels_of(setups, name)) {
     setup.family = channel.family;
     setup.channels.push_back(channel.channel);
-    const auto at = std::find_if(candidates.begin(), candidates.end(), [&](const LayoutChannel& c) {
-      return c.point == channel.point && c.direction == channel.direction;
-    });
+    const auto at = std::ranges::find_if(
+        candidates, [&](const LayoutChannel& c) { return c.point == channel.point && c.direction == channel.direction; });
     TWINDECK_ASSERT(at != candidates.end());
     setup.rows.push_back(at - candidates.begin());
   }
@@ -128,9 +127,7 @@ const std::vector<std::string> kSearches = {"effective_independence", "greatest_
 
 std::string free_name(long i) { return "DC" + std::to_string(i + 1); }
 
-bool chosen(const std::vector<Index>& rows, Index candidate) {
-  return std::find(rows.begin(), rows.end(), candidate) != rows.end();
-}
+bool chosen(const std::vector<Index>& rows, Index candidate) { return contains(rows, candidate); }
 
 double worth_of(const MatrixXd& phi, const std::vector<Index>& rows, const Worth& worth) {
   return worth(MatrixXd(phi(rows, Eigen::all)));
@@ -174,7 +171,7 @@ void refuse_unknown_blind_setups(const LayoutSettings& config, const std::vector
   for (long i = 0; i < std::min(config.free_setups, config.draws); ++i) known.push_back(free_name(i));
   known.insert(known.end(), kSearches.begin(), kSearches.end());
   for (const std::string& name : config.blind_setups) {
-    if (std::find(known.begin(), known.end(), name) == known.end())
+    if (!contains(known, name))
       throw InputError({"", 0, "blind.setups"}, "'" + name + "' is no setup" + did_you_mean(name, known),
                        "name setups of the layout, DC1 … or a search");
   }

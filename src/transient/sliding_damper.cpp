@@ -58,8 +58,7 @@ LinearisedModes linearised_modes(const VectorXd& omega_rad_s, const VectorXd& da
     if (lambda.imag() > 1e-6 * omega_rad_s.minCoeff() && std::abs(lambda) < 2.0 * std::numbers::pi * highest_Hz)
       kept.push_back(i);
   }
-  std::sort(kept.begin(), kept.end(),
-            [&](Index i, Index j) { return std::abs(eig.eigenvalues()[i]) < std::abs(eig.eigenvalues()[j]); });
+  std::ranges::sort(kept, [&](Index i, Index j) { return std::abs(eig.eigenvalues()[i]) < std::abs(eig.eigenvalues()[j]); });
   LinearisedModes modes;
   modes.frequency_Hz.resize(std::ssize(kept));
   modes.damping_ratio.resize(std::ssize(kept));

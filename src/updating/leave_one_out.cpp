@@ -23,7 +23,7 @@ LeftOut predicted(const Search& search, std::size_t target, const SearchEnd& end
   out.frequency_Hz = end.evaluation.frequency_Hz(at);
   out.followed_mac = end.evaluation.mac(at);
   const std::vector<int> side = on_bound(end.end.x, search.box, search.options.bound_tolerance);
-  out.on_bounds = static_cast<int>(std::count_if(side.begin(), side.end(), [](int s) { return s != 0; }));
+  out.on_bounds = static_cast<int>(std::ranges::count_if(side, [](int s) { return s != 0; }));
   return out;
 }
 

@@ -54,13 +54,13 @@ Eigen::MatrixXd starting_points(const Eigen::VectorXd& first, const Box& box, in
 std::vector<int> distinct_optima(const std::vector<EndPoint>& ends, const Box& box, double negligible) {
   std::vector<std::size_t> order(ends.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
-  std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return ends[a].cost < ends[b].cost; });
+  std::ranges::stable_sort(order, [&](std::size_t a, std::size_t b) { return ends[a].cost < ends[b].cost; });
   std::vector<int> optimum(ends.size(), -1);
   std::vector<std::size_t> representatives;
   for (const std::size_t k : order) {
     if (!ends[k].converged) continue;
-    const auto same = std::find_if(representatives.begin(), representatives.end(),
-                                   [&](std::size_t r) { return same_optimum(ends[r], ends[k], box, negligible); });
+    const auto same =
+        std::ranges::find_if(representatives, [&](std::size_t r) { return same_optimum(ends[r], ends[k], box, negligible); });
     if (same == representatives.end()) {
       representatives.push_back(k);
       optimum[k] = static_cast<int>(k);

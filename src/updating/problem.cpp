@@ -243,7 +243,7 @@ BoundedResult run_rounds(const ResidualFunction& function, int n_residuals, cons
     predict = last_accepted > 0;
     const std::vector<bool> is_held =
         predict ? stay_on_bound(point, box, options.bound_tolerance) : held(result.x, gradient, box, options.bound_tolerance);
-    if (std::all_of(is_held.begin(), is_held.end(), [](bool h) { return h; })) {
+    if (std::ranges::all_of(is_held, [](bool h) { return h; })) {
       last_accepted = 0;
       continue;
     }

@@ -33,7 +33,7 @@ ModalResiduals::ModalResiduals(std::shared_ptr<const fe::ParametricSystem> syste
 
 const Evaluation& ModalResiduals::at(const Eigen::VectorXd& x, bool with_jacobian) {
   constexpr std::size_t kept_points = 8;
-  auto known = std::find_if(cache_.begin(), cache_.end(), [&](const Evaluation& e) { return e.x == x; });
+  auto known = std::ranges::find_if(cache_, [&](const Evaluation& e) { return e.x == x; });
   if (known == cache_.end()) {
     Evaluation fresh;
     fresh.x = x;

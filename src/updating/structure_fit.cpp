@@ -48,7 +48,7 @@ struct Rows {
 
 double mass_of_groups(const fe::Model& model, const std::vector<std::string>& groups) {
   const auto belongs = [&](const std::string& group) {
-    return std::any_of(groups.begin(), groups.end(), [&](const std::string& begin) { return group.starts_with(begin); });
+    return std::ranges::any_of(groups, [&](const std::string& begin) { return group.starts_with(begin); });
   };
   double sum = 0.0;
   for (const fe::Element& element : model.elements)

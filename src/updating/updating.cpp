@@ -6,6 +6,7 @@
 #include <cmath>
 #include <utility>
 
+#include "core/lists.hpp"
 #include "core/parallel.hpp"
 #include "updating/leave_one_out.hpp"
 #include "updating/multi_start.hpp"
@@ -99,8 +100,7 @@ int best_start(const std::vector<SearchEnd>& ends) {
 
 // Chooses the start to publish and walks along its valley. @return the optimum of each start
 std::vector<int> choose(const Search& search, std::vector<SearchEnd>& ends, const Eigen::VectorXd& x0, UpdatingResult& result) {
-  std::vector<EndPoint> end_points;
-  for (const SearchEnd& end : ends) end_points.push_back(end.end);
+  const auto end_points = each_of(ends, &SearchEnd::end);
   const std::vector<int> optimum = distinct_optima(end_points, search.box, search.definition.negligible_residual());
   result.best = best_start(ends);
   if (!ends[static_cast<std::size_t>(result.best)].result.converged) return optimum;
@@ -120,7 +120,7 @@ void collect(const Search& search, std::vector<SearchEnd>& ends, const Eigen::Ve
     result.history.insert(result.history.end(), ends[k].history.begin(), ends[k].history.end());
   }
   const int published = optimum[static_cast<std::size_t>(result.best)];
-  std::stable_sort(result.optima.begin(), result.optima.end(), [&](int a, int b) {
+  std::ranges::stable_sort(result.optima, [&](int a, int b) {
     if ((a == published) != (b == published)) return a == published;
     return ends[static_cast<std::size_t>(a)].result.cost < ends[static_cast<std::size_t>(b)].result.cost;
   });

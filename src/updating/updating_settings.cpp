@@ -1,13 +1,12 @@
 #include "updating/updating_settings.hpp"
 
-#include <algorithm>
 #include <utility>
+
+#include "core/lists.hpp"
 
 namespace twindeck::updating {
 
-bool UpdatingSettings::weighs_shapes() const {
-  return std::find(residuals.begin(), residuals.end(), "shape") != residuals.end();
-}
+bool UpdatingSettings::weighs_shapes() const { return contains(residuals, "shape"); }
 
 bool UpdatingSettings::weighs() const { return weights == "covariance" || weighs_shapes(); }
 

@@ -42,7 +42,7 @@ void refuse_unweighable_shapes(const matching::Measured& measured) {
   if (!measured.modes.has_shapes())
     throw InputError({measured.source, 0, "shape"}, "holds no measured shape, which `residuals` asks for",
                      "give shapes in rows.csv, or residuals = [\"frequency\"]");
-  if (std::none_of(measured.rows.begin(), measured.rows.end(), [](const matching::MeasuredRow& row) { return row.dof >= 0; }))
+  if (std::ranges::none_of(measured.rows, [](const matching::MeasuredRow& row) { return row.dof >= 0; }))
     throw InputError({measured.source, 0, "shapes.csv"}, "has no standard deviations, so that shapes can't be weighed",
                      "give the modes as a features folder (--features), whose rows.csv has them");
 }

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <map>
 
+#include "core/lists.hpp"
 #include "sensitivity/frequency_jacobian.hpp"
 #include "updating/posterior.hpp"
 
@@ -55,7 +56,7 @@ std::vector<std::string> twin_sentences(const Weighed& weighed) {
   };
   for (const auto& names : at_optimum) add(names, "at the optimum");
   for (const auto& names : at_start)
-    if (std::find(at_optimum.begin(), at_optimum.end(), names) == at_optimum.end()) add(names, "at the initial values");
+    if (!contains(at_optimum, names)) add(names, "at the initial values");
   return sentences;
 }
 

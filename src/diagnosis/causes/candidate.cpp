@@ -9,6 +9,7 @@
 #include <set>
 
 #include "core/error.hpp"
+#include "core/lists.hpp"
 
 namespace twindeck::diagnosis {
 
@@ -51,8 +52,7 @@ std::string unmet(const Needs& needs, const FeatureSet& features) {
     if (static_cast<int>(values.size()) < count)
       return fmt::format("needs {} different values of {}, the rows have {}", count, key, values.size());
   }
-  if (!needs.rows.empty() &&
-      std::none_of(needs.rows.begin(), needs.rows.end(), [&](const auto& t) { return types.contains(t); }))
+  if (!needs.rows.empty() && std::ranges::none_of(needs.rows, [&](const auto& t) { return types.contains(t); }))
     return fmt::format("no row of type {}", fmt::join(needs.rows, " or "));
   return "";
 }
@@ -89,8 +89,8 @@ std::set<int> measured_channels(const FeatureSet& features) {
 /// Whether there are load tests, and a support of this name that holds vertically.
 bool can_settle(const ReducedModel& model, const std::string& support) {
   const auto& grounds = model.load_tests.grounds;
-  return std::any_of(grounds.begin(), grounds.end(),
-                     [&](const Ground& ground) { return ground.support == support && ground.settle.squaredNorm() > 0.0; });
+  return std::ranges::any_of(
+      grounds, [&](const Ground& ground) { return ground.support == support && ground.settle.squaredNorm() > 0.0; });
 }
 
 Candidate& add(const Hypothesis& h, const std::string& location, std::vector<Candidate>& found) {
@@ -152,7 +152,7 @@ void add_damper_moves(const Hypothesis& h, const ReducedModel& model, const std:
     for (std::size_t comma = names.find(','); comma != std::string::npos; names.erase(0, comma + 1), comma = names.find(','))
       candidate.places.push_back(model.place("dampers", "damper:" + names.substr(0, comma)));
     candidate.places.push_back(&moved);
-    if (std::find(candidate.places.begin(), candidate.places.end(), nullptr) != candidate.places.end()) found.pop_back();
+    if (contains(candidate.places, nullptr)) found.pop_back();
   }
 }
 
@@ -171,12 +171,11 @@ void add_damper_types(const Hypothesis& h, const ReducedModel& model, const std:
 bool can_act(const Candidate& candidate, const ReducedModel& model) {
   if (candidate.places.empty()) return true;
   const ReducedPlace& place = *candidate.places[0];
-  return std::none_of(candidate.hypothesis->actions.begin(), candidate.hypothesis->actions.end(),
-                      [&](const ActionSpec& action) {
-                        return (scales_stiffness(action.primitive) && place.stiffness.size() == 0) ||
-                               (action.primitive == Primitive::support_settle && !can_settle(model, candidate.location)) ||
-                               (action.primitive == Primitive::scale_mass && place.mass.size() == 0);
-                      });
+  return std::ranges::none_of(candidate.hypothesis->actions, [&](const ActionSpec& action) {
+    return (scales_stiffness(action.primitive) && place.stiffness.size() == 0) ||
+           (action.primitive == Primitive::support_settle && !can_settle(model, candidate.location)) ||
+           (action.primitive == Primitive::scale_mass && place.mass.size() == 0);
+  });
 }
 
 /// Largest motion of a node in a mode of the unchanged model.
@@ -252,8 +251,8 @@ bool resolvable(const Candidate& candidate) {
   const auto there = [&](const Expression& e) {
     return e.name.empty() || e.name == "f_measured" || attribute_if(candidate, e).has_value();
   };
-  return std::all_of(candidate.hypothesis->unknowns.begin(), candidate.hypothesis->unknowns.end(), [&](const UnknownSpec& u) {
-    return there(u.low) && there(u.high) && std::all_of(u.start.begin(), u.start.end(), there);
+  return std::ranges::all_of(candidate.hypothesis->unknowns, [&](const UnknownSpec& u) {
+    return there(u.low) && there(u.high) && std::ranges::all_of(u.start, there);
   });
 }
 
@@ -264,7 +263,7 @@ constexpr double kChangeStarts[] = {0.02, 0.08, 0.2, 0.45, 0.75, 1.35, 2.2, 5.0,
 
 /// Whether a cause is a part of the structure, which one state may have and another state may not.
 bool is_a_part(const Hypothesis& h) {
-  return !h.measurement && std::all_of(h.actions.begin(), h.actions.end(), [](const ActionSpec& action) {
+  return !h.measurement && std::ranges::all_of(h.actions, [](const ActionSpec& action) {
     const ActsOn what = acts_on(action.primitive);
     return what == ActsOn::part || adds(action.primitive) || what == ActsOn::damper || what == ActsOn::stay ||
            what == ActsOn::support;
@@ -418,7 +417,7 @@ void bound(Candidate& candidate, const MeasuredModes& measured) {
     candidate.log.push_back(u.log);
     candidate.low[i] = u.log ? std::log(range.low) : range.low;
     candidate.high[i] = u.log ? std::log(range.high) : range.high;
-    if (std::any_of(u.start.begin(), u.start.end(), [](const Expression& e) { return e.name == "f_measured"; }))
+    if (std::ranges::any_of(u.start, [](const Expression& e) { return e.name == "f_measured"; }))
       candidate.tuned = static_cast<int>(i);
     starts.push_back(starts_of(candidate, u, range, 0.5 * (candidate.low[i] + candidate.high[i]), measured));
   }

@@ -1,13 +1,13 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <algorithm>
 #include <map>
 #include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "core/lists.hpp"
 #include "diagnosis/causes/catalogue.hpp"
 #include "diagnosis/features/features.hpp"
 #include "diagnosis/reduction/reduced_model.hpp"
@@ -47,8 +47,7 @@ struct Candidate {
   }
   [[nodiscard]] bool acts_in(const Condition& condition) const { return acts_in_state(condition.state); }
   [[nodiscard]] bool acts_in_state(const std::string& name) const {
-    return state.empty() || state == name ||
-           std::find(further_states.begin(), further_states.end(), name) != further_states.end();
+    return state.empty() || state == name || contains(further_states, name);
   }
   /// Unknown `i` in its own unit at coordinates `a`.
   [[nodiscard]] double physical(const Eigen::VectorXd& a, Eigen::Index i) const;

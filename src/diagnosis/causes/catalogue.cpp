@@ -1,6 +1,6 @@
 #include "diagnosis/causes/catalogue.hpp"
 
-#include <algorithm>
+#include "core/lists.hpp"
 
 namespace twindeck::diagnosis {
 
@@ -24,8 +24,8 @@ const std::vector<std::string>& place_numbers() {
 
 bool is_place_number(const std::string& name) {
   const std::vector<std::string>& known = place_numbers();
-  return std::find(known.begin(), known.end(), name) != known.end() || name.starts_with("x_") || name.starts_with("node_") ||
-         name == "least_change" || name == "most_change";
+  return contains(known, name) || name.starts_with("x_") || name.starts_with("node_") || name == "least_change" ||
+         name == "most_change";
 }
 
 const std::vector<std::string>& location_sets() {

@@ -9,6 +9,7 @@
 #include <numeric>
 #include <set>
 
+#include "core/lists.hpp"
 #include "core/parallel.hpp"
 #include "core/statistics.hpp"
 #include "matching/pairing.hpp"
@@ -137,7 +138,7 @@ std::vector<std::vector<int>> groups(const std::vector<double>& own_Hz) {
     std::vector<int> twins;
     for (std::size_t j = 0; j < own_Hz.size(); ++j)
       if (std::abs(std::log(own_Hz[j] / own_Hz[i])) <= twins_within) twins.push_back(static_cast<int>(j));
-    if (twins.size() > 1 && std::find(out.begin(), out.end(), twins) == out.end()) out.push_back(twins);
+    if (twins.size() > 1 && !contains(out, twins)) out.push_back(twins);
   }
   return out;
 }
@@ -219,7 +220,7 @@ StayChoice choose_swinging(const BarModes& bars, const std::vector<SwingingCable
     chosen = joined(chosen, choices[static_cast<std::size_t>(at - value.begin())]);
   }
   for (std::size_t i = 0; i < chosen.size();) {  // backwards
-    if (std::find(kept.begin(), kept.end(), chosen[i]) != kept.end()) {
+    if (contains(kept, chosen[i])) {
       ++i;
       continue;
     }

@@ -24,7 +24,7 @@ void hold_out_largest(FeatureSet& features, Value value) {
 }  // namespace
 
 void hold_out_by_rule(FeatureSet& features) {
-  if (std::any_of(features.rows.begin(), features.rows.end(), [](const Row& row) { return row.held_out; })) return;
+  if (std::ranges::any_of(features.rows, [](const Row& row) { return row.held_out; })) return;
   hold_out_largest(features, [](const Condition& c) { return c.amplitude_m; });
   hold_out_largest(features, [](const Condition& c) { return c.temperature_C; });
   hold_out_largest(features, [](const Condition& c) { return c.wind_m_s; });
@@ -48,14 +48,14 @@ std::vector<std::string> states_of(const FeatureSet& features) {
   for (const Row& row : features.rows) used[static_cast<std::size_t>(row.condition)] = true;
   std::vector<std::size_t> in_order(used.size());
   std::iota(in_order.begin(), in_order.end(), std::size_t{0});
-  std::stable_sort(in_order.begin(), in_order.end(),
-                   [&](std::size_t a, std::size_t b) { return features.conditions[a].line < features.conditions[b].line; });
+  std::ranges::stable_sort(
+      in_order, [&](std::size_t a, std::size_t b) { return features.conditions[a].line < features.conditions[b].line; });
   std::vector<std::string> out;
   for (const std::size_t c : in_order) {
     const std::string& state = features.conditions[c].state;
-    if (used[c] && std::find(out.begin(), out.end(), state) == out.end()) out.push_back(state);
+    if (used[c] && std::ranges::find(out, state) == out.end()) out.push_back(state);
   }
-  const auto reference = std::find(out.begin(), out.end(), "reference");
+  const auto reference = std::ranges::find(out, "reference");
   if (reference != out.end()) std::rotate(out.begin(), reference, reference + 1);
   return out;
 }

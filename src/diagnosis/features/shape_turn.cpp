@@ -23,7 +23,7 @@ void set_alone(const std::vector<int>& rows, const std::vector<int>& common, con
   if (rows.size() == common.size()) return;
   const double size = std::sqrt(squares(rows, values) / static_cast<double>(rows.size()));
   for (const int r : rows)
-    if (std::find(common.begin(), common.end(), r) == common.end()) alone[r] = size;
+    if (std::ranges::find(common, r) == common.end()) alone[r] = size;
 }
 
 }  // namespace
@@ -31,7 +31,7 @@ void set_alone(const std::vector<int>& rows, const std::vector<int>& common, con
 CommonRows common_rows(const ShapeRows& first, const ShapeRows& second) {
   CommonRows out;
   for (std::size_t k = 0; k < first.rows.size(); ++k) {
-    const auto at = std::find(second.channels.begin(), second.channels.end(), first.channels[k]);
+    const auto at = std::ranges::find(second.channels, first.channels[k]);
     if (at == second.channels.end()) continue;
     out.first.push_back(first.rows[k]);
     out.second.push_back(second.rows[static_cast<std::size_t>(at - second.channels.begin())]);

@@ -8,6 +8,7 @@
 #include <set>
 
 #include "core/error.hpp"
+#include "core/lists.hpp"
 #include "core/units.hpp"
 #include "diagnosis/features/features.hpp"
 #include "io/toml_value.hpp"
@@ -133,7 +134,7 @@ class Reader {
       if (e.key == "set") {
         h_.set = text(e);
         const auto& known = location_sets();
-        if (std::find(known.begin(), known.end(), h_.set) == known.end())
+        if (!contains(known, h_.set))
           fail(e.line, "location.set", fmt::format("'{}' is no set of locations{}", h_.set, did_you_mean(h_.set, known)),
                fmt::format("use one of {}", fmt::join(known, ", ")));
       } else if (e.key == "filter")
@@ -228,8 +229,7 @@ class Reader {
   }
   Primitive primitive(const std::string& name, long line) const {
     if (const auto known = primitive_named(name)) return *known;
-    std::vector<std::string> names;
-    for (const PrimitiveKind& one : primitives()) names.push_back(one.name);
+    auto names = each_of(primitives(), &PrimitiveKind::name);
     std::ranges::sort(names);
     fail(line, "action.kind", fmt::format("unknown primitive '{}'{}", name, did_you_mean(name, names)),
          fmt::format("use one of {}", fmt::join(names, ", ")));
@@ -242,11 +242,11 @@ class Reader {
     for (const auto& number : a.number) {
       const std::string& name = number.first;
       const Expression& value = number.second;
-      if (std::ranges::find(kind.numbers, name) == kind.numbers.end())
+      if (!contains(kind.numbers, name))
         fail(value.line, "action." + name, fmt::format("is no number of {}{}", kind.name, did_you_mean(name, kind.numbers)),
              "");
       if (value.name.starts_with('$') &&
-          std::none_of(h_.unknowns.begin(), h_.unknowns.end(), [&](const auto& u) { return "$" + u.name == value.name; }))
+          std::ranges::none_of(h_.unknowns, [&](const auto& u) { return "$" + u.name == value.name; }))
         fail(value.line, "action." + name, fmt::format("names '{}', which is no [[parameter]]", value.name), "");
       if (!value.name.starts_with('$')) check_name(value, "action." + name);
     }
@@ -254,7 +254,7 @@ class Reader {
   /// One of the keys of a condition. @param key  of the catalogue that names it
   std::string condition_key(const std::string& name, long line, const std::string& key) const {
     const auto& known = condition_keys();
-    if (std::find(known.begin(), known.end(), name) == known.end())
+    if (!contains(known, name))
       fail(line, key, fmt::format("'{}' is no key of a condition{}", name, did_you_mean(name, known)),
            fmt::format("use one of {}", fmt::join(known, ", ")));
     return name;
@@ -262,7 +262,7 @@ class Reader {
   std::string demand(const io::TomlEntry& entry) const {
     const auto& known = condition_demands();
     const std::string asked = text(entry);
-    if (std::find(known.begin(), known.end(), asked) == known.end())
+    if (!contains(known, asked))
       fail(entry.line, "needs.conditions." + entry.key, fmt::format("is '{}'{}", asked, did_you_mean(asked, known)),
            fmt::format("use one of {}", fmt::join(known, ", ")));
     return asked;
@@ -288,7 +288,7 @@ class Reader {
         for (const auto& value : *list) {
           const auto& known = row_type_names();
           const std::string type = value.as<std::string>() ? *value.as<std::string>() : "";
-          if (std::find(known.begin(), known.end(), type) == known.end())
+          if (!contains(known, type))
             fail(e.line, "needs.rows", fmt::format("'{}' is no type of row{}", type, did_you_mean(type, known)), "");
           h_.needs.rows.push_back(type);
         }

@@ -3,9 +3,8 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include <algorithm>
-
 #include "core/error.hpp"
+#include "core/lists.hpp"
 #include "io/csv.hpp"
 
 namespace twindeck::diagnosis {
@@ -19,7 +18,7 @@ std::vector<DamperMove> read_damper_places(const std::filesystem::path& file, co
   std::vector<DamperMove> moves;
   for (std::size_t r = 0; r < table.rows(); ++r) {
     const std::string name = table.text(r, "alternative"), damper = table.text(r, "damper");
-    if (std::find(known.begin(), known.end(), damper) == known.end())
+    if (!contains(known, damper))
       table.fail(
           r, "damper",
           fmt::format("'{}' is no damper of the model between a node and the ground{}", damper, did_you_mean(damper, known)),

@@ -7,6 +7,7 @@
 #include <set>
 
 #include "core/error.hpp"
+#include "core/lists.hpp"
 #include "io/csv.hpp"
 #include "io/spreadsheet.hpp"
 #include "model_io/load_cases.hpp"
@@ -26,7 +27,7 @@ std::vector<Condition> all_of(const std::vector<records::MeasuredCondition>& mea
 
 /// Position of a name that is known to be there.
 int position(const std::vector<std::string>& names, const std::string& name) {
-  const auto at = std::find(names.begin(), names.end(), name);
+  const auto at = std::ranges::find(names, name);
   TWINDECK_ASSERT(at != names.end());
   return static_cast<int>(at - names.begin());
 }
@@ -37,9 +38,9 @@ Row to_row(const records::FeatureRow& read, const std::vector<records::MeasuredC
   row.line = read.line;
   row.type = static_cast<RowType>(position(row_type_names(), read.type));
   row.mode = read.mode;
-  row.condition = static_cast<int>(std::find_if(conditions.begin(), conditions.end(),
-                                                [&](const records::MeasuredCondition& c) { return c.name == read.condition; }) -
-                                   conditions.begin());
+  row.condition = static_cast<int>(
+      std::ranges::find_if(conditions, [&](const records::MeasuredCondition& c) { return c.name == read.condition; }) -
+      conditions.begin());
   row.value = read.value;
   row.std = read.std;
   row.held_out = read.held_out;
@@ -79,8 +80,7 @@ FeatureSet read_all_features(const std::filesystem::path& folder, const records:
   }
   refuse_unknown_channels(choice.corrections, features.channels, (folder / "channels.csv").string());
   for (const Condition& condition : features.conditions) {
-    if (!condition.amplitude_channel.empty() &&
-        std::find(features.channels.begin(), features.channels.end(), condition.amplitude_channel) == features.channels.end())
+    if (!condition.amplitude_channel.empty() && !contains(features.channels, condition.amplitude_channel))
       throw InputError({(folder / "conditions.toml").string(), 0, "amplitude_channel"},
                        fmt::format("'{}' of condition {} is not in channels.csv{}", condition.amplitude_channel, condition.name,
                                    did_you_mean(condition.amplitude_channel, features.channels)),
@@ -91,7 +91,7 @@ FeatureSet read_all_features(const std::filesystem::path& folder, const records:
   std::vector<int> kept;
   for (std::size_t r = 0; r < read.rows.size(); ++r) {
     const auto is_its = [&](const records::MeasuredCondition& c) { return c.name == read.rows[r].condition; };
-    if (std::none_of(conditions.begin(), conditions.end(), is_its)) continue;
+    if (std::ranges::none_of(conditions, is_its)) continue;
     kept.push_back(static_cast<int>(r));
     features.rows.push_back(to_row(read.rows[r], conditions, features));
   }
@@ -109,7 +109,7 @@ void refuse_unknown_stays(const FeatureSet& features, const fe::Model* model, co
         names.push_back(element.name.empty() ? std::to_string(element.id) : element.name);
   std::sort(names.begin(), names.end());
   for (const Row& row : features.rows) {
-    if (row.type == RowType::stay_frequency && std::find(names.begin(), names.end(), row.stay) == names.end())
+    if (row.type == RowType::stay_frequency && !contains(names, row.stay))
       throw InputError({(folder / "rows.csv").string(), row.line, "channel"},
                        fmt::format("'{}' is no stay of the model{}", row.stay, did_you_mean(row.stay, names)),
                        names.empty() ? "the model has no stays; leave the row out, or stay_frequency_Hz as a whole (left_out)"
@@ -134,7 +134,7 @@ void refuse_unknown_loads(const std::filesystem::path& folder, const std::filesy
   const std::filesystem::path file = folder / "conditions.toml", loads = model / "loads.csv";
   const std::vector<std::string> known = model_io::load_case_names(model);
   for (const records::MeasuredCondition& condition : records::read_conditions(file)) {
-    if (condition.load_line == 0 || std::find(known.begin(), known.end(), condition.load) != known.end()) continue;
+    if (condition.load_line == 0 || contains(known, condition.load)) continue;
     throw InputError({file.string(), condition.load_line, "load"},
                      known.empty() ? fmt::format("names the load case '{}', but the model has none: {} is not there or empty",
                                                  condition.load, loads.string())
@@ -154,7 +154,7 @@ std::vector<Claim> read_claims(const std::filesystem::path& folder) {
   for (std::size_t r = 0; r < table.rows(); ++r) {
     Claim claim;
     const std::string kind = table.text(r, "kind");
-    const auto at = std::find(kinds.begin(), kinds.end(), kind);
+    const auto at = std::ranges::find(kinds, kind);
     if (at == kinds.end()) table.fail(r, "kind", fmt::format("'{}' is no kind of claim; use {}", kind, fmt::join(kinds, ", ")));
     claim.kind = static_cast<Claim::Kind>(at - kinds.begin());
     claim.name = table.text(r, "name");

@@ -6,6 +6,7 @@
 #include <set>
 
 #include "core/error.hpp"
+#include "core/lists.hpp"
 #include "diagnosis/reduction/load_test_vectors.hpp"
 #include "model_io/load_cases.hpp"
 
@@ -44,20 +45,17 @@ bool stands_on_nothing(const fe::Model& model, const std::string& id) {
   const auto is_it = [&](int node) {
     return node >= 0 && std::to_string(model.nodes[static_cast<std::size_t>(node)].id) == id;
   };
-  return std::none_of(model.supports.begin(), model.supports.end(), [&](const fe::Support& s) { return is_it(s.node); }) &&
-         std::none_of(model.springs.begin(), model.springs.end(),
-                      [&](const fe::Spring& s) { return is_it(s.node) || is_it(s.node2); }) &&
-         std::none_of(model.links.begin(), model.links.end(),
-                      [&](const fe::RigidLink& l) { return is_it(l.slave) || is_it(l.master); }) &&
-         std::none_of(model.constraints.begin(), model.constraints.end(),
-                      [&](const fe::Constraint& c) { return is_it(c.node); });
+  return std::ranges::none_of(model.supports, [&](const fe::Support& s) { return is_it(s.node); }) &&
+         std::ranges::none_of(model.springs, [&](const fe::Spring& s) { return is_it(s.node) || is_it(s.node2); }) &&
+         std::ranges::none_of(model.links, [&](const fe::RigidLink& l) { return is_it(l.slave) || is_it(l.master); }) &&
+         std::ranges::none_of(model.constraints, [&](const fe::Constraint& c) { return is_it(c.node); });
 }
 
 bool has_node(const dynamics::ReadModel& model, const std::string& id) {
   if (const fe::Model* fe = model.fe_model(); fe != nullptr)
-    return std::any_of(fe->nodes.begin(), fe->nodes.end(), [&](const fe::Node& n) { return std::to_string(n.id) == id; });
+    return std::ranges::any_of(fe->nodes, [&](const fe::Node& n) { return std::to_string(n.id) == id; });
   const auto& dofs = model.matrices.dofs;
-  return std::any_of(dofs.begin(), dofs.end(), [&](const auto& dof) { return dof.node == id; });
+  return std::ranges::any_of(dofs, [&](const auto& dof) { return dof.node == id; });
 }
 
 /// Refuses a row that no load could change: its channel must be mistaken.
@@ -81,7 +79,7 @@ void refuse_blind_channels(const LoadTests& tests, const FeatureSet& features, c
 std::vector<std::string> support_names(const fe::Model& model) {
   std::vector<std::string> names;
   const auto add = [&](const std::string& name) {
-    if (std::find(names.begin(), names.end(), name) == names.end()) names.push_back(name);
+    if (!contains(names, name)) names.push_back(name);
   };
   for (const fe::Support& s : model.supports)
     add(s.name.empty() ? fmt::format("node_{}", model.nodes[static_cast<std::size_t>(s.node)].id) : s.name);
@@ -121,20 +119,19 @@ void refuse_unplaced_load_tests(const FeatureSet& features, const std::vector<ma
   }
   if (fe == nullptr) return;
   for (const int c : used.channels) {
-    const auto channel = std::find_if(channels.begin(), channels.end(), [&](const matching::Channel& each) {
-      return each.name == features.channels[static_cast<std::size_t>(c)];
-    });
+    const auto channel = std::ranges::find_if(
+        channels, [&](const matching::Channel& each) { return each.name == features.channels[static_cast<std::size_t>(c)]; });
     if (channel == channels.end()) continue;
     const auto is_it = [&](const fe::Element& e) {
       return e.name == channel->element || std::to_string(e.id) == channel->element;
     };
-    if (!channel->element.empty() && std::none_of(fe->elements.begin(), fe->elements.end(), is_it))
+    if (!channel->element.empty() && std::ranges::none_of(fe->elements, is_it))
       throw no_such_element({files.channels.string(), channel->line, "element"}, channel->element);
     const std::vector<std::string> known = support_names(*fe);
     const auto is_support = [&](const std::string& name) {
       return name == channel->support || name + " fixed" == channel->support;  // springs may have the name of a support
     };
-    if (!channel->support.empty() && std::none_of(known.begin(), known.end(), is_support))
+    if (!channel->support.empty() && std::ranges::none_of(known, is_support))
       throw no_such_support({files.channels.string(), channel->line, "support"}, channel->support, known);
   }
 }

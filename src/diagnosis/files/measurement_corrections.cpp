@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "core/lists.hpp"
 #include "io/atomic.hpp"
 
 namespace twindeck::diagnosis {
@@ -12,7 +13,7 @@ namespace {
 
 bool is_fault_of_channels(const Candidate& candidate) {
   const std::vector<ActionSpec>& actions = candidate.hypothesis->actions;
-  return !candidate.channels.empty() && std::all_of(actions.begin(), actions.end(), [](const ActionSpec& action) {
+  return !candidate.channels.empty() && std::ranges::all_of(actions, [](const ActionSpec& action) {
     return action.primitive == Primitive::channel_sign || action.primitive == Primitive::channel_swap ||
            action.primitive == Primitive::channel_gain;
   });
@@ -35,8 +36,7 @@ records::Correction undo(const ActionSpec& action, const Cause& cause, const std
 }
 
 std::vector<std::string> words(const std::vector<records::Correction>& corrections) {
-  std::vector<std::string> said;
-  for (const records::Correction& correction : corrections) said.push_back(words_of(correction));
+  const auto said = each_of(corrections, records::words_of);
   return said;
 }
 

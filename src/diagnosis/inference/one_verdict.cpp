@@ -29,7 +29,7 @@ Judgement judge(double log_weight_of_nothing, const std::vector<PossibleAnswer>&
   std::vector<int> order(answers.size());
   std::iota(order.begin(), order.end(), 0);
   const auto weight = [&](int i) { return answers[static_cast<std::size_t>(i)].log_weight; };
-  std::stable_sort(order.begin(), order.end(), [&](int a, int b) { return weight(a) > weight(b); });
+  std::ranges::stable_sort(order, [&](int a, int b) { return weight(a) > weight(b); });
   double sum = 0.0;
   for (const int i : order) {
     if (sum >= kSetProbability * scaled) break;
@@ -37,7 +37,7 @@ Judgement judge(double log_weight_of_nothing, const std::vector<PossibleAnswer>&
     sum += std::exp(weight(i) - most);
   }
   const auto is_else = [&](int i) { return answers[static_cast<std::size_t>(i)].something_else; };
-  out.something_else_in_set = std::any_of(out.set.begin(), out.set.end(), is_else);
+  out.something_else_in_set = std::ranges::any_of(out.set, is_else);
   if (out.nothing >= 1.0 - kSetProbability) return out;
   out.verdict = is_else(out.set.front()) ? Verdict::unknown : out.set.size() == 1 ? Verdict::named : Verdict::ambiguous;
   return out;

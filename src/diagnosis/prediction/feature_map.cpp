@@ -7,6 +7,7 @@
 #include <set>
 
 #include "core/error.hpp"
+#include "core/lists.hpp"
 #include "diagnosis/features/shape_turn.hpp"
 #include "diagnosis/prediction/predictor.hpp"
 
@@ -203,8 +204,7 @@ void FeatureMap::list_nuisances(const ScatterOptions& scatter) {
     if (row.type == RowType::rms || row.type == RowType::psd_floor)
       levels[2 * row.condition + (row.type == RowType::psd_floor ? 1 : 0)] = true;
     const std::string own = damping_name(row.mode, row.condition);
-    if (row.type == RowType::damping && std::find(damping_modes_.begin(), damping_modes_.end(), own) == damping_modes_.end())
-      damping_modes_.push_back(own);
+    if (row.type == RowType::damping && !contains(damping_modes_, own)) damping_modes_.push_back(own);
   }
   for (const auto& [channel, used] : channels)
     add(Nuisance::Kind::gain, channel, "channel:" + features_.channels[static_cast<std::size_t>(channel)] + " gain", 0.0,

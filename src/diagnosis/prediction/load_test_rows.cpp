@@ -16,7 +16,7 @@ using Eigen::VectorXd;
 
 /// Whether the force of a support is measured in a condition.
 bool support_is_gauged(const FeatureSet& features, const LoadTests& tests, int condition, int ground) {
-  return std::any_of(features.rows.begin(), features.rows.end(), [&](const Row& row) {
+  return std::ranges::any_of(features.rows, [&](const Row& row) {
     return row.type == RowType::static_force && row.condition == condition &&
            tests.forces[static_cast<std::size_t>(row.channel)].ground == ground;
   });
@@ -89,7 +89,7 @@ void Predictor::predict_load_tests(int c) {
   const FeatureSet& features = map_.features();
   const Condition& condition = features.conditions[static_cast<std::size_t>(c)];
   const LoadTests& tests = map_.model().load_tests;
-  const auto named = std::find(tests.cases.begin(), tests.cases.end(), condition.load);
+  const auto named = std::ranges::find(tests.cases, condition.load);
   TWINDECK_ASSERT(named != tests.cases.end());
   SolvedLoadTest test;
   test.load_case = static_cast<Index>(named - tests.cases.begin());

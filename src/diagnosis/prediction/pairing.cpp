@@ -4,6 +4,7 @@
 #include <cmath>
 #include <complex>
 
+#include "core/lists.hpp"
 #include "diagnosis/prediction/predictor.hpp"
 #include "linalg/dense.hpp"
 
@@ -158,7 +159,7 @@ void Predictor::pair(const std::vector<int>& conditions) {
   std::vector<std::size_t> here;
   for (std::size_t m = 0; m < map_.modes_.size(); ++m) {
     const MeasuredMode& measured = map_.modes_[m];
-    if (std::find(conditions.begin(), conditions.end(), measured.condition) == conditions.end()) continue;
+    if (!contains(conditions, measured.condition)) continue;
     here.push_back(m);
     VectorXd& sum = cost.try_emplace(measured.label, VectorXd::Zero(n)).first->second;
     double& open = cost_of_none[measured.label];
@@ -191,7 +192,7 @@ void Predictor::pair(const std::vector<int>& conditions) {
   }
   const std::vector<int> chosen = matching::best_assignment(gain);
   for (const std::size_t m : here) {
-    const auto at = std::find(labels.begin(), labels.end(), map_.modes_[m].label) - labels.begin();
+    const auto at = std::ranges::find(labels, map_.modes_[m].label) - labels.begin();
     const int mode = chosen[static_cast<std::size_t>(at)];
     out_.paired[m] = mode < n ? mode : -1;
   }

@@ -26,7 +26,7 @@ constexpr double kNoDirection = 1e-6;    ///< [-] length below which a direction
 
 double Predictor::structural_damping(const std::string& label) const {
   const auto& labels = map_.damping_modes_;
-  const auto at = std::find(labels.begin(), labels.end(), label);
+  const auto at = std::ranges::find(labels, label);
   if (at == labels.end()) return kUsualDamping_pct;
   for (std::size_t j = 0; j < map_.nuisances().size(); ++j) {
     const Nuisance& v = map_.nuisances()[j];
@@ -383,7 +383,7 @@ Prediction Predictor::run() {
     if (!modal[c]) continue;
     const auto condition = static_cast<int>(c);
     // A label holds within one state. Two states are paired separately, even if nothing has changed between them yet.
-    const auto known = std::find_if(alike.begin(), alike.end(), [&](const auto& group) {
+    const auto known = std::ranges::find_if(alike, [&](const auto& group) {
       return &solved(group[0]) == &solved(condition) && map_.same_state(group[0], condition);
     });
     if (known == alike.end())
@@ -394,7 +394,7 @@ Prediction Predictor::run() {
   for (const auto& group : alike) pair(group);
   if (with_jacobian_) differentiate_paired();
   for (std::size_t m = 0; m < modes; ++m) predict_mode(map_.modes_[m], m);
-  out_.valid = modes == 0 || std::any_of(out_.paired.begin(), out_.paired.end(), [](int mode) { return mode >= 0; });
+  out_.valid = modes == 0 || std::ranges::any_of(out_.paired, [](int mode) { return mode >= 0; });
   if (!out_.valid) return out_;
   for (std::size_t c = 0; c < loaded.size(); ++c)
     if (loaded[c]) predict_load(static_cast<int>(c));

@@ -113,7 +113,7 @@ void Predictor::predict_rms(std::size_t r, SolvedState& state, const std::vector
 void Predictor::predict_load(int c) {
   const auto& rows = map_.features().rows;
   const bool records =
-      std::any_of(rows.begin(), rows.end(), [&](const Row& row) { return row.condition == c && row.type == RowType::rms; });
+      std::ranges::any_of(rows, [&](const Row& row) { return row.condition == c && row.type == RowType::rms; });
   SolvedState* state = records ? &solved(c) : nullptr;
   std::vector<ExcitedMode> excited;
   for (Index i = 0; records && i < state->modes.s.size(); ++i) excited.push_back(excited_mode(c, *state, i));

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "core/lists.hpp"
 #include "diagnosis/prediction/predictor.hpp"
 #include "diagnosis/reduction/independent_coordinates.hpp"
 
@@ -47,7 +48,7 @@ Predictor::Acting Predictor::acting_in(const Condition& condition) const {
     for (Index i = 0; i < cause.a.size(); ++i) out.causes.push_back(cause.a[i]);
     for (const ReducedPlace* place : cause.candidate->places)
       for (const int k : place->columns)
-        if (std::find(out.columns.begin(), out.columns.end(), k) == out.columns.end()) out.columns.push_back(k);
+        if (!contains(out.columns, k)) out.columns.push_back(k);
   }
   const auto dampers = map_.model().sets.find("dampers");
   if (dampers != map_.model().sets.end() && condition.dampers_on.value_or(false))
@@ -61,7 +62,7 @@ std::vector<double> Predictor::circumstances(const Condition& condition, const A
   key.push_back(acting.temperature ? condition.temperature_C.value_or(kUnknown) : 0.0);
   key.push_back(acting.amplitude ? condition.amplitude_m.value_or(kUnknown) : 0.0);
   const auto& channels = map_.features().channels;
-  const auto channel = std::find(channels.begin(), channels.end(), condition.amplitude_channel) - channels.begin();
+  const auto channel = std::ranges::find(channels, condition.amplitude_channel) - channels.begin();
   key.push_back(acting.amplitude ? static_cast<double>(channel) : 0.0);
   key.push_back(acting.wind ? condition.wind_m_s.value_or(kUnknown) : 0.0);
   return key;
@@ -94,7 +95,7 @@ StateModes in_coordinates_of(const SolvedState& state, const SolvedState& near) 
   StateModes out;
   out.shapes = Eigen::MatrixXcd::Zero(state.state.stiffness.rows(), near.modes.s.size());
   for (Index k = 0; k < shared; ++k) {
-    const auto at = std::find(state.columns.begin(), state.columns.end(), near.columns[static_cast<std::size_t>(k)]);
+    const auto at = std::ranges::find(state.columns, near.columns[static_cast<std::size_t>(k)]);
     if (at == state.columns.end()) return {};
     out.shapes.row(at - state.columns.begin()) = near.modes.shapes.row(k);
   }

@@ -101,7 +101,7 @@ Predictor::DamperInUse Predictor::damper_in(const Condition& condition, const Re
   for (const Cause& cause : causes_) {
     if (!cause.candidate->acts_in(condition)) continue;
     const auto& places = cause.candidate->places;
-    const auto here = std::find(places.begin(), places.end(), &damper);
+    const auto here = std::ranges::find(places, &damper);
     if (here == places.end()) continue;
     for (const ActionSpec& action : cause.candidate->hypothesis->actions) {
       const auto value = [&](const char* name) { return cause.candidate->value(action.number.at(name), cause.a); };
@@ -290,7 +290,7 @@ StructureState Predictor::build_state(const Condition& condition) const {
   }
   if (condition.amplitude_m && !condition.amplitude_channel.empty()) {
     const auto& channels = map_.features().channels;
-    const auto at = std::find(channels.begin(), channels.end(), condition.amplitude_channel);
+    const auto at = std::ranges::find(channels, condition.amplitude_channel);
     if (at != channels.end()) {
       state.amplitude_row = map_.model().sensors.row(4 * (at - channels.begin()))(columns_);
       state.amplitude_m = *condition.amplitude_m;

@@ -55,7 +55,7 @@ std::vector<std::vector<std::string>> composite_groups(const std::vector<std::st
         std::vector<std::string> kept = parts;
         for (std::size_t k = 0; k < vary.size(); ++k)
           if ((any >> k & 1U) != 0) kept[vary[k]].clear();
-        const bool shares = std::any_of(kept.begin(), kept.end(), [](const std::string& part) { return !part.empty(); });
+        const bool shares = std::ranges::any_of(kept, [](const std::string& part) { return !part.empty(); });
         if (shares) alike[kept].push_back(name);
       }
       for (auto& [kept, together] : alike)

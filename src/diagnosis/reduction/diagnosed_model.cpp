@@ -5,6 +5,7 @@
 #include <map>
 
 #include "core/error.hpp"
+#include "core/lists.hpp"
 #include "matching/shapes_at_sensors.hpp"
 
 namespace twindeck::diagnosis {
@@ -18,7 +19,7 @@ constexpr double kRigid = 1e4;  // stiffness of a spring that replaces a rigid s
 std::pair<double, double> stiffness_at(const fe::Model& model, int node) {
   double translation = 0.0, rotation = 0.0;
   for (const fe::Element& element : model.elements) {
-    if (std::find(element.nodes.begin(), element.nodes.end(), node) == element.nodes.end()) continue;
+    if (!contains(element.nodes, node)) continue;
     if (element.type != fe::ElementType::beam && element.type != fe::ElementType::shell) continue;
     const double e = model.materials[static_cast<std::size_t>(element.material)].youngs_modulus_Pa;
     const fe::Section& s = model.sections[static_cast<std::size_t>(element.section)];
@@ -58,11 +59,10 @@ void release_supports(fe::Model& model, std::vector<std::string>& rigid) {
       spring.stiffness = stiffness;
       model.springs.push_back(spring);
       support.fixed[d] = false;
-      if (std::find(rigid.begin(), rigid.end(), group) == rigid.end()) rigid.push_back(group);
+      if (!contains(rigid, group)) rigid.push_back(group);
     }
   }
-  std::erase_if(model.supports,
-                [](const fe::Support& s) { return std::none_of(s.fixed.begin(), s.fixed.end(), [](bool f) { return f; }); });
+  std::erase_if(model.supports, [](const fe::Support& s) { return std::ranges::none_of(s.fixed, [](bool f) { return f; }); });
 }
 
 std::vector<std::string> nodes_of_channels(const DiagnosedModel& model) {
@@ -91,8 +91,7 @@ std::vector<std::string> nodes_of_channels(const DiagnosedModel& model) {
         }
       }
     }
-    if (channel.is_at_a_point() && name.empty() && std::find(known.begin(), known.end(), channel.point) != known.end())
-      name = channel.point;
+    if (channel.is_at_a_point() && name.empty() && contains(known, channel.point)) name = channel.point;
     names.push_back(name);
   }
   return names;

@@ -8,6 +8,7 @@
 #include <string>
 
 #include "core/error.hpp"
+#include "core/lists.hpp"
 #include "diagnosis/reduction/composite_groups.hpp"
 #include "diagnosis/reduction/place_parts.hpp"
 #include "fe/assembly_elements.hpp"
@@ -217,7 +218,7 @@ void ElementPlaces::add_dampers(Places& places) const {
     if (!spring.is_damper()) continue;
     Place place = damper_place(spring);
     if (!spring.group.empty()) {
-      const auto at = std::find(types.begin(), types.end(), spring.group);
+      const auto at = std::ranges::find(types, spring.group);
       place.attributes["type"] = static_cast<double>(at - types.begin());
       if (at == types.end()) types.push_back(spring.group);
     }
@@ -299,14 +300,12 @@ void ElementPlaces::add_supports(Places& places) const {
 }
 
 void ElementPlaces::add_moves(const std::vector<DamperMove>& moves, Places& places) const {
-  std::vector<Eigen::Vector3d> nodes;
-  for (const fe::Node& node : model_.nodes) nodes.push_back(node.x_m);
+  const auto nodes = each_of(model_.nodes, &fe::Node::x_m);
   for (const DamperMove& move : moves) {
     Place place{"dampers:", Eigen::Vector3d::Zero(), {}, {}, {}, {}, {}};
     std::vector<Eigen::Triplet<double>> entries;
     for (std::size_t i = 0; i < move.dampers.size(); ++i) {
-      const auto spring = std::find_if(model_.springs.begin(), model_.springs.end(),
-                                       [&](const fe::Spring& s) { return s.name == move.dampers[i]; });
+      const auto spring = std::ranges::find_if(model_.springs, [&](const fe::Spring& s) { return s.name == move.dampers[i]; });
       TWINDECK_ASSERT(spring != model_.springs.end() && can_be_moved(*spring));
       const int node = nearest(nodes, move.x_m[i]);
       for (int d = 0; d < 3; ++d)
@@ -338,7 +337,7 @@ void ElementPlaces::add_nodes(const std::vector<int>& chosen, Places& places) co
                 Eigen::SparseMatrix<double>(expansion_.transpose() * directions),
                 {},
                 {}};
-    const bool supported = std::any_of(model_.springs.begin(), model_.springs.end(), [&](const fe::Spring& spring) {
+    const bool supported = std::ranges::any_of(model_.springs, [&](const fe::Spring& spring) {
       return spring.node == node && spring.node2 < 0 && !spring.rotation && !spring.is_damper() &&
              std::abs(spring.direction.normalized().z()) > kMostlyVertical && fe::carries_stiffness(spring);
     });
@@ -406,7 +405,7 @@ void ElementPlaces::add_groups(Places& places) const {
   const auto add = [&](const std::string& id, const Group& group) {
     Place place{id, group.sum / group.count, free(group.stiffness), {}, {}, {}, group.elements};
     if (!group.mass.entries.empty()) place.mass = free(group.mass);
-    const bool known = std::any_of(of_parameters.begin(), of_parameters.end(), [&](const Place& other) {
+    const bool known = std::ranges::any_of(of_parameters, [&](const Place& other) {
       return other.id == place.id ||
              (other.stiffness.nonZeros() > 0 && alike(other.stiffness.whole(), place.stiffness.whole()));
     });
@@ -453,14 +452,13 @@ Place ElementPlaces::part(const std::vector<int>& elements) const {
 
 bool ElementPlaces::stands_for_rigid(const fe::Spring& spring) const {
   const auto& rigid = structure_.rigid_supports;
-  return spring.name.find(kRigidSpring) != std::string::npos &&
-         std::find(rigid.begin(), rigid.end(), spring.support_name()) != rigid.end();
+  return spring.name.find(kRigidSpring) != std::string::npos && contains(rigid, spring.support_name());
 }
 
 void ElementPlaces::fill_global(Place& global) const {
   Sum stiffness{expansion_.rows(), {}}, mass{expansion_.rows(), {}};
-  const bool shells = std::any_of(model_.elements.begin(), model_.elements.end(),
-                                  [](const fe::Element& e) { return e.type == fe::ElementType::shell; });
+  const bool shells =
+      std::ranges::any_of(model_.elements, [](const fe::Element& e) { return e.type == fe::ElementType::shell; });
   double deck = 0.0;
   std::vector<int> of_deck;
   for (const int e : candidates_) {

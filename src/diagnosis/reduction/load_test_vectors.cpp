@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "core/lists.hpp"
 #include "fe/assembly_elements.hpp"
 #include "fe/beam_frame.hpp"
 
@@ -42,7 +43,7 @@ class Nodes {
  private:
   [[nodiscard]] int position(const std::string& node) const {
     const auto& nodes = structure_.model->nodes;
-    const auto at = std::find_if(nodes.begin(), nodes.end(), [&](const fe::Node& n) { return std::to_string(n.id) == node; });
+    const auto at = std::ranges::find_if(nodes, [&](const fe::Node& n) { return std::to_string(n.id) == node; });
     return at == nodes.end() ? -1 : static_cast<int>(at - nodes.begin());
   }
 
@@ -78,9 +79,7 @@ int parameter_of(const Structure& structure, const Place& place) {
   const std::string name = name_of_support(place);
   const auto& parameters = structure.system->parameters;
   for (std::size_t p = 0; p < parameters.size(); ++p)
-    if (parameters[p].target == fe::Target::spring_stiffness &&
-        std::find(parameters[p].of.begin(), parameters[p].of.end(), name) != parameters[p].of.end())
-      return static_cast<int>(p);
+    if (parameters[p].target == fe::Target::spring_stiffness && contains(parameters[p].of, name)) return static_cast<int>(p);
   return -1;
 }
 
@@ -114,7 +113,7 @@ RowVectorXd strain_row(const Structure& structure, const Gauge& gauge, const twi
   const std::string without = "leave the channel and its rows out";
   if (model == nullptr) throw InputError(at, "names an element, but a model of matrices has none", without);
   const auto is_it = [&](const fe::Element& e) { return e.name == gauge.element || std::to_string(e.id) == gauge.element; };
-  const auto element = std::find_if(model->elements.begin(), model->elements.end(), is_it);
+  const auto element = std::ranges::find_if(model->elements, is_it);
   if (element == model->elements.end()) throw no_such_element(at, gauge.element);
   const bool line = element->type == fe::ElementType::bar || element->type == fe::ElementType::stay ||
                     (element->type == fe::ElementType::beam && element->section2 < 0);
@@ -179,7 +178,7 @@ LoadTests load_tests_of(const Structure& structure, const Places& places, const 
                         const std::vector<Gauge>& gauges, const std::string& loads_file, const std::string& channels_file) {
   LoadTests out;
   for (const NodalLoad& load : loads)
-    if (std::find(out.cases.begin(), out.cases.end(), load.load) == out.cases.end()) out.cases.push_back(load.load);
+    if (!contains(out.cases, load.load)) out.cases.push_back(load.load);
   if (out.empty()) return out;
   const Nodes nodes(structure);
   const std::vector<Place> supports = supports_of(places);
@@ -187,7 +186,7 @@ LoadTests load_tests_of(const Structure& structure, const Places& places, const 
   out.force = MatrixXd::Zero(n, cases);
   MatrixXd moves = MatrixXd::Zero(n, cases);  // movements of the ground, as displacements of the free dofs that are held to it
   for (const NodalLoad& load : loads) {
-    const auto c = static_cast<Index>(std::find(out.cases.begin(), out.cases.end(), load.load) - out.cases.begin());
+    const auto c = static_cast<Index>(std::ranges::find(out.cases, load.load) - out.cases.begin());
     const twindeck::Place at{loads_file, load.line, "node"};
     const RowVectorXd motion = nodes.motion(load.node, load.direction);
     if (motion.size() == 0) throw no_such_node(at, load.node);
@@ -201,7 +200,7 @@ LoadTests load_tests_of(const Structure& structure, const Places& places, const 
       continue;
     }
     const auto holds = [&](const Place& support) { return (support.stiffness * VectorXd(motion.transpose())).norm() > 0.0; };
-    if (std::none_of(supports.begin(), supports.end(), holds)) throw no_support_to_move(at, load.node, load.direction);
+    if (std::ranges::none_of(supports, holds)) throw no_support_to_move(at, load.node, load.direction);
     moves.col(c) += load.value / motion.squaredNorm() * motion.transpose();  // a node on a rigid arm depends on several dofs
   }
   const VectorXd up = translation(*structure.system, Eigen::Vector3d::UnitZ());

@@ -191,7 +191,7 @@ void ReducedModel::project(const fe::ParametricSystem& system, const Places& pla
       jobs.push_back({list[i].stiffness.nonZeros() + list[i].mass.nonZeros(),
                       [&, i] { reduced_set[i] = reduced(list[i], set, kept_->basis, *kept_->statics, total_mass_kg); }});
   }
-  std::stable_sort(jobs.begin(), jobs.end(), [](const Job& a, const Job& b) { return a.size > b.size; });
+  std::ranges::stable_sort(jobs, [](const Job& a, const Job& b) { return a.size > b.size; });
   parallel_for(jobs.size(), [&](std::size_t i) { jobs[i].run(); });
 }
 

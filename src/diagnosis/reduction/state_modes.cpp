@@ -65,7 +65,7 @@ StateModes state_space(const StructureState& state, const UndampedModes& undampe
     const Complex s = eigen.values[i];
     if (s.imag() > 1e-6 && -s.real() < 0.6 * std::abs(s)) kept.push_back(i);
   }
-  std::sort(kept.begin(), kept.end(), [&](Index a, Index b) { return std::abs(eigen.values[a]) < std::abs(eigen.values[b]); });
+  std::ranges::sort(kept, [&](Index a, Index b) { return std::abs(eigen.values[a]) < std::abs(eigen.values[b]); });
   StateModes out;
   out.s.resize(static_cast<Index>(kept.size()));
   out.shapes.resize(shapes.rows(), out.s.size());
@@ -131,7 +131,7 @@ bool same_mode(const std::pair<Complex, VectorXcd>& other, Complex s, const Vect
 
 /// Sorts by frequency and scales to phi' T'(s) phi = 2 s.
 StateModes normalised(const StructureState& state, std::vector<std::pair<Complex, VectorXcd>> found) {
-  std::sort(found.begin(), found.end(), [](const auto& a, const auto& b) { return std::abs(a.first) < std::abs(b.first); });
+  std::ranges::sort(found, [](const auto& a, const auto& b) { return std::abs(a.first) < std::abs(b.first); });
   StateModes modes;
   modes.s.resize(static_cast<Index>(found.size()));
   modes.shapes.resize(state.stiffness.rows(), modes.s.size());
@@ -150,8 +150,8 @@ StateModes normalised(const StructureState& state, std::vector<std::pair<Complex
 /// followed.
 StateModes solve_by_state_space(const StructureState& state, double highest_Hz, const UndampedModes& undamped) {
   // Friction elements stick at first; then they slide as far as the lowest mode makes them.
-  const bool sliders = std::any_of(state.attachments.begin(), state.attachments.end(),
-                                   [](const Attachment& a) { return a.kind == Attachment::Kind::jenkins; });
+  const bool sliders =
+      std::ranges::any_of(state.attachments, [](const Attachment& a) { return a.kind == Attachment::Kind::jenkins; });
   const double highest = 6.0 * std::pow(2.0 * std::numbers::pi * highest_Hz, 2);
   std::vector<Complex> friction;
   double omega = 2.0 * std::numbers::pi * highest_Hz / 3.0;
@@ -174,8 +174,7 @@ StateModes solve_by_state_space(const StructureState& state, double highest_Hz, 
     Complex s = modes.s[i];
     VectorXcd phi = modes.shapes.col(i).normalized();
     if (!refine(state, s, phi) || !oscillates(s)) continue;
-    if (std::none_of(found.begin(), found.end(), [&](const auto& other) { return same_mode(other, s, phi); }))
-      found.emplace_back(s, phi);
+    if (std::ranges::none_of(found, [&](const auto& other) { return same_mode(other, s, phi); })) found.emplace_back(s, phi);
   }
   return normalised(state, found);
 }
@@ -253,8 +252,7 @@ class ModalRoots {
       if (with_shapes && sliders_) break;
       Found found;
       const Found all = starts(forces, 2.0 * std::numbers::pi * 1.1 * highest_Hz, with_shapes);
-      if (!std::all_of(all.begin(), all.end(),
-                       [&](const auto& start) { return add(start.first, start.second, forces, found, false); }))
+      if (!std::ranges::all_of(all, [&](const auto& start) { return add(start.first, start.second, forces, found, false); }))
         continue;
       gather(found, out);
       return out.s.size() > 0;
@@ -288,7 +286,7 @@ class ModalRoots {
   }
 
   void gather(Found& found, StateModes& out) const {
-    std::sort(found.begin(), found.end(), [](const auto& a, const auto& c) { return std::abs(a.first) < std::abs(c.first); });
+    std::ranges::sort(found, [](const auto& a, const auto& c) { return std::abs(a.first) < std::abs(c.first); });
     const Index count = std::ssize(found);
     out.s.resize(count);
     MatrixXd parts(modes_.size(), 2 * count);
@@ -370,7 +368,7 @@ class ModalRoots {
       }
       roots.emplace_back(s, std::move(z));
     }
-    std::sort(roots.begin(), roots.end(), [](const auto& a, const auto& c) { return std::abs(a.first) < std::abs(c.first); });
+    std::ranges::sort(roots, [](const auto& a, const auto& c) { return std::abs(a.first) < std::abs(c.first); });
     return roots;
   }
 

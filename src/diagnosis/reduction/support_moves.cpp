@@ -89,10 +89,10 @@ void ElementPlaces::add_support_moves(Places& places) const {
     }
     // If the support also has bearings, its rigid springs are a location of their own, which does not move.
     const auto rigid = [&](const fe::Spring* s) { return stands_for_rigid(*s); };
-    if (!std::all_of(springs.begin(), springs.end(), rigid)) std::erase_if(springs, rigid);
+    if (!std::ranges::all_of(springs, rigid)) std::erase_if(springs, rigid);
     if (springs.empty() || clamped) continue;
     const int node = springs.front()->node;
-    if (std::any_of(springs.begin(), springs.end(), [&](const fe::Spring* s) { return s->node != node; })) continue;
+    if (std::ranges::any_of(springs, [&](const fe::Spring* s) { return s->node != node; })) continue;
     const std::vector<std::pair<int, double>> line = line_through(model_, beams, node);
     constexpr std::size_t kFewest = 4;  // nodes that a support can move between
     if (line.size() < kFewest) continue;

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 
+#include "core/lists.hpp"
 #include "diagnosis/words/plain_words.hpp"
 
 namespace twindeck::diagnosis {
@@ -147,8 +148,7 @@ std::string PlaceWords::near(const Vector3d& x) const {
 PlaceWords::Points PlaceWords::distinct(const Points& points) const {
   Points out;
   for (const Vector3d& x : points)
-    if (known(x) &&
-        std::none_of(out.begin(), out.end(), [&](const Vector3d& y) { return (x - y).norm() <= kSamePoint * extent_m_; }))
+    if (known(x) && std::ranges::none_of(out, [&](const Vector3d& y) { return (x - y).norm() <= kSamePoint * extent_m_; }))
       out.push_back(x);
   return out;
 }
@@ -273,16 +273,14 @@ PlaceInWords PlaceWords::dampers(const std::string& names) const {
   Points points;
   if (model_ != nullptr)
     for (const fe::Spring& s : model_->springs)
-      if (std::find(each.begin(), each.end(), s.name) != each.end())
-        points.push_back(model_->nodes[static_cast<std::size_t>(s.node)].x_m);
+      if (contains(each, s.name)) points.push_back(model_->nodes[static_cast<std::size_t>(s.node)].x_m);
   return with_points(words, points);
 }
 
 PlaceInWords PlaceWords::channels(const std::vector<std::string>& names) const {
   Points points;
   for (const std::string& name : names) {
-    const auto found =
-        std::find_if(channels_.begin(), channels_.end(), [&](const matching::Channel& c) { return c.name == name; });
+    const auto found = std::ranges::find_if(channels_, [&](const matching::Channel& c) { return c.name == name; });
     if (found == channels_.end()) continue;
     const auto node = node_x_m_.find(found->point);
     if (found->x_m)
@@ -303,11 +301,10 @@ PlaceInWords PlaceWords::groups(const std::vector<std::string>& names) const {
 
 PlaceInWords PlaceWords::group(const std::string& name) const {
   if (model_ == nullptr) return {"the group " + name, kNowhere};
-  const auto parameter = std::find_if(model_->parameters.begin(), model_->parameters.end(),
-                                      [&](const fe::Parameter& p) { return p.name == name; });
+  const auto parameter = std::ranges::find_if(model_->parameters, [&](const fe::Parameter& p) { return p.name == name; });
   const bool is_parameter = parameter != model_->parameters.end();
   const std::vector<std::string> of = is_parameter ? parameter->of : std::vector<std::string>{name};
-  const auto is_one = [&](const std::string& candidate) { return std::find(of.begin(), of.end(), candidate) != of.end(); };
+  const auto is_one = [&](const std::string& candidate) { return contains(of, candidate); };
   Points points;
   for (const fe::Element& e : model_->elements) {
     const auto named = [&](int at, const auto& list) { return at >= 0 && is_one(list[static_cast<std::size_t>(at)].name); };

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "core/distributions.hpp"
+#include "core/lists.hpp"
 
 namespace twindeck::diagnosis {
 
@@ -69,7 +70,7 @@ std::string quantity_words(const Row& row, const std::string& sensor) {
 /// has a damping ratio of its own.
 bool is_predicted(const FeatureSet& features, const Row& row) {
   if (row.type != RowType::damping || !row.held_out) return true;
-  return std::any_of(features.rows.begin(), features.rows.end(), [&](const Row& other) {
+  return std::ranges::any_of(features.rows, [&](const Row& other) {
     return other.type == RowType::damping && !other.held_out && other.mode == row.mode;
   });
 }
@@ -217,8 +218,7 @@ std::string rivals_words(const Effect& effect, const IdsInWords& ids) {
   std::vector<std::string> named;
   for (std::size_t i = 0; i < std::min(effect.rivals.size(), kRivals); ++i) {
     const Rival& rival = effect.rivals[i];
-    std::vector<std::string> sizes;
-    for (const EffectParameter& p : rival.parameters) sizes.push_back(interval_words(p));
+    const auto sizes = each_of(rival.parameters, interval_words);
     const std::string what = rival.candidate == nullptr ? "something else that changed" : ids.in_text(rival.id);
     named.push_back(fmt::format("{}, probability {}{}", what, probability_words(rival.probability),
                                 sizes.empty() ? "" : fmt::format(" ({})", fmt::join(sizes, "; "))));
@@ -434,8 +434,8 @@ Sentences sentences_of(const Inference& inference, const Diagnosis& result, cons
   out.why = why_it_is(result, ids);
   out.how_sure = how_sure_it_is(result, ids);
   out.how_much_better = how_much_better_it_is(result);
-  const auto rivalled = std::find_if(result.effects.begin(), result.effects.end(),
-                                     [](const Effect& e) { return e.cluster.size() > 1 && !e.split_by.empty(); });
+  const auto rivalled =
+      std::ranges::find_if(result.effects, [](const Effect& e) { return e.cluster.size() > 1 && !e.split_by.empty(); });
   const bool open = !next.empty() && !next.front().starts_with("Cannot be asked");
   if (result.verdict == Verdict::unknown && !result.localisation.empty())
     out.next = left_over_words(result, places);
