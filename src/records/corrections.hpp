@@ -24,10 +24,10 @@ struct Correction {
   };
   std::string channel;
   Action action = Action::reverse;
-  std::string with;     ///< of an exchange, else empty
-  double factor = 1.0;  ///< [-] of a scale, else 1; above 0
-  std::string state;    ///< of the structure, when its records had the fault; "" for all states
-  Place place = {};     ///< in the file, for messages
+  std::string with;        ///< of an exchange, else empty
+  double factor = 1.0;     ///< [-] of a scale, else 1; above 0
+  std::string state = {};  ///< of the structure, when its records had the fault; "" for all states
+  Place place = {};        ///< in the file, for messages
 };
 
 /// "reverse", "exchange" or "scale".
