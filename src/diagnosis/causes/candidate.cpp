@@ -284,21 +284,16 @@ struct AskedStates {
 
 /// States in which a hypothesis is tried. A part may change in one state alone. With three and more states, it may also change
 /// from one state on, because damage remains until it is repaired. A part that differs in all states is an error of the model.
-/// Sensors are taken down and mounted again, so a fault of one is tried in each state alone too.
+/// Sensors are taken down and mounted again, so that a fault of one is tried like an added part.
 std::vector<AskedStates> states_asked(const Hypothesis& h, const std::vector<std::string>& states) {
+  if (states.size() < 2 || !(is_a_part(h) || is_of_channels(h))) return {{}};
   std::vector<AskedStates> out;
-  if (states.size() > 1 && is_of_channels(h))
-    for (const std::string& state : states) out.push_back({{state}, "state " + state});
-  if (states.size() < 2 || !is_a_part(h)) {
-    out.emplace_back();
-    return out;
-  }
   for (auto state = states.begin() + 1; state != states.end(); ++state) out.push_back({{*state}, "state " + *state});
   for (auto state = states.begin() + 1; state + 1 != states.end(); ++state)
     out.push_back({{state, states.end()}, fmt::format("from state {} on", *state)});
-  // More in a later state may mean less in the first one. A factor covers both; a cause that only adds is tried for the earlier
-  // states too.
-  if (std::ranges::all_of(h.actions, adds, &ActionSpec::primitive)) {
+  // More in a later state may mean less in the first one. A factor covers both; a cause that only adds, or that is a fault of
+  // the sensors, is tried for the earlier states too.
+  if (is_of_channels(h) || std::ranges::all_of(h.actions, adds, &ActionSpec::primitive)) {
     out.push_back({{states.front()}, "state " + states.front()});
     for (auto state = states.begin() + 2; state < states.end(); ++state)
       out.push_back({{states.begin(), state}, "before state " + *state});

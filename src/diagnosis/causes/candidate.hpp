@@ -79,9 +79,9 @@ struct Instantiated {
 
 /// Makes a candidate of every hypothesis at every location of its set. If the rows come from several states of the structure,
 /// changes between states are tried: in one state alone or, with three and more states, from one state on. Factors between
-/// states range from 0.005 to 20. Faults of channels are tried in all states and in each state alone, because sensors are
-/// taken down and mounted again. Other errors of the model and of the measurement act in all states. Families whose needs the
-/// data do not meet, or whose set is empty, go to `invisible` with the reason.
+/// states range from 0.005 to 20. Faults of channels are tried in all states and, like parts that are added, in some: sensors
+/// are taken down and mounted again. Other errors of the model and of the measurement act in all states. Families whose needs
+/// the data do not meet, or whose set is empty, go to `invisible` with the reason.
 /// @throws InputError  naming file and line for an unknown attribute, or bounds that are not low < high
 [[nodiscard]] Instantiated instantiate(const std::vector<Hypothesis>& catalogue, const ReducedModel& model,
                                        const FeatureSet& features);

@@ -19,12 +19,13 @@ bool is_fault_of_channels(const Candidate& candidate) {
   });
 }
 
-records::Correction undo(const ActionSpec& action, const Cause& cause, const std::vector<std::string>& channels) {
+records::Correction undo(const ActionSpec& action, const Cause& cause, const std::vector<std::string>& channels,
+                         const std::string& state) {
   const Candidate& candidate = *cause.candidate;
   const auto name = [&](std::size_t which) { return channels[static_cast<std::size_t>(candidate.channels[which])]; };
   records::Correction correction;
   correction.channel = name(0);
-  correction.state = candidate.state;
+  correction.state = state;
   if (action.primitive == Primitive::channel_swap) {
     correction.action = records::Correction::Action::exchange;
     correction.with = name(1);
@@ -45,11 +46,15 @@ std::vector<std::string> words(const std::vector<records::Correction>& correctio
 std::vector<records::Correction> corrections_of(const Diagnosis& result, const std::vector<std::string>& channels) {
   std::vector<records::Correction> of_values, exchanges;
   for (const Effect& effect : result.effects) {
-    if (effect.cluster.size() > 1 || !is_fault_of_channels(*effect.cause.candidate)) continue;
-    for (const ActionSpec& action : effect.cause.candidate->hypothesis->actions) {
-      const records::Correction correction = undo(action, effect.cause, channels);
-      (correction.action == records::Correction::Action::exchange ? exchanges : of_values).push_back(correction);
-    }
+    const Candidate& fault = *effect.cause.candidate;
+    if (effect.cluster.size() > 1 || !is_fault_of_channels(fault)) continue;
+    std::vector<std::string> states = {fault.state};
+    states.insert(states.end(), fault.further_states.begin(), fault.further_states.end());
+    for (const std::string& state : states)
+      for (const ActionSpec& action : fault.hypothesis->actions) {
+        const records::Correction correction = undo(action, effect.cause, channels, state);
+        (correction.action == records::Correction::Action::exchange ? exchanges : of_values).push_back(correction);
+      }
   }
   of_values.insert(of_values.end(), exchanges.rbegin(), exchanges.rend());
   return of_values;

@@ -79,6 +79,21 @@ TEST(CorrectionsOf, LeavesOutWhatIsNotDecidedAndWhatIsNoFaultOfSignGainOrName) {
   EXPECT_TRUE(diagnosis::correction_advice(faulty.corrections()).empty());
 }
 
+TEST(CorrectionsOf, NamesEachStateThatHasTheFault) {
+  Faulty faulty;
+  diagnosis::Candidate later = faulty.e.entry("pol@channel:c2");
+  later.state = "mid";
+  later.further_states = {"late"};
+  diagnosis::Effect effect;
+  effect.cause = {&later, {}};
+  effect.cluster = {later.key()};
+  faulty.result.effects.push_back(effect);
+  const std::vector<records::Correction> corrections = faulty.corrections();
+  ASSERT_EQ(corrections.size(), 2U);
+  EXPECT_EQ(words_of(corrections[0]), "c2 reversed in state mid");
+  EXPECT_EQ(words_of(corrections[1]), "c2 reversed in state late");
+}
+
 TEST(WriteCorrections, AddsToWhatWasGivenAndTakesBackWhatWasWrong) {
   const auto file = std::filesystem::temp_directory_path() / "twindeck_measurement_corrections.toml";
   const records::Correction a{"a", records::Correction::Action::reverse, "", 1.0, "", {}},
