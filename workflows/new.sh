@@ -6,6 +6,11 @@ name=${1:-}
 home=$(dirname "$0")/..
 new=${TWINDECK_NEW:-make new STUDY=} run=${TWINDECK_RUN:-make all STUDY=}
 case $name in
+  --help | -h)
+    echo "${new}NAME ${TWINDECK_FROM:-FROM=\"records.csv sensors.csv bridge.inp\"}: a study out of records, a table of sensors (channel, x, y, z, direction) and a deck or model folder"
+    echo "${new}NAME: a small frame that runs as it stands; ${TWINDECK_GIRDER:-TEMPLATE=girder}: a footbridge in wind"
+    echo "NAME has small letters, digits and _. It becomes workflows/NAME and data/NAME. Then: ${run}NAME"
+    exit 0 ;;
   '' | *[!a-z0-9_]* | [!a-z]*)
     echo "new: '$name' is no name for a study, expected small letters, digits and _, beginning with a letter: ${new}my_bridge" >&2
     exit 2 ;;

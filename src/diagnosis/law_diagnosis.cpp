@@ -134,8 +134,10 @@ class ByLaw {
     out_.form->shape = estimate_of(winner_, kShapes);
     out_.form->classes = classes_in_words(winner_, setting_.contrasts);
     if (out_.form->frequency.level > kFarOff)
-      out_.form->warnings.push_back(fmt::format("the model is {:.0f} % off in frequency: too far to see small causes",
-                                                100.0 * out_.form->frequency.level));
+      out_.form->warnings.push_back(
+          fmt::format("the model is {:.0f} % off in frequency: too far to see small causes; a finer mesh, or fewer modes "
+                      "(band.highest of s3_identification), may bring it nearer",
+                      100.0 * out_.form->frequency.level));
   }
 
   [[nodiscard]] bool is_model_error(int member) const {

@@ -241,7 +241,7 @@ class Headline(unittest.TestCase):
         within_its_error = self.sentence(gain=gain, raw=self.raw((0.99, 0.96), (1.01, 1.0)))  # grows by 1 %, with a standard error of 2 %
         self.assertTrue(within_its_error.endswith("; unfitted frequency errors rise from 1 to 2 %."), within_its_error)
         text = self.sentence(gain=gain | {"interval_pct": [-2.0, 86.0]}, raw=self.raw((0.96, 0.99)))
-        self.assertTrue(text.endswith("; no gain shown: unfitted frequency errors fall from 4 to 1 %."), text)
+        self.assertTrue(text.endswith("; gain not certain: unfitted frequency errors fall from 4 to 1 %."), text)
 
     def test_held_out_modes_alone_count_where_there_are_any(self):
         rows = [telling.Told("1", "", 1.0, 0.9, 1.0), telling.Told("2", "", 1.0, 0.98, 0.97, held_out=True)]

@@ -73,7 +73,7 @@ class Pieces(unittest.TestCase):
         record = inspection.read(Path("x.unv"), lines)
         self.assertEqual((record.rate_Hz, record.samples, record.columns, record.responses), (None, 801, ("7-z", "9+x"), True))
         missing = []
-        entry = campaign._entry("ST1", record, ["7-z", "9_x"], "as_tested", missing)
+        entry = campaign._entry("ST1", record, ["7-z", "9_x"], "as_tested", "a.unv", missing)
         self.assertEqual(missing, [])
         self.assertIn('kind = "frf"', entry)
         self.assertFalse(any(line.startswith("sampling_rate_Hz") for line in entry.splitlines()))

@@ -143,9 +143,10 @@ def _gained(gain: dict, raw: RawErrors | None) -> list:
     if raw is None:
         return [text + on_what for text in ([f"error {gain['reduction_pct']:.0f} % smaller"] if gain["interval_pct"][0] > 0 else ["no gain shown"]) for on_what in (" on unfitted data", "")]
     which = "unfitted" if raw.held_out else "fitted"
-    no = "no gain: " if raw.worse else "" if gain["interval_pct"][0] > 0 else "no gain shown: "
+    falls = raw.frequency[1] < raw.frequency[0]
+    no = "no gain: " if raw.worse else "" if gain["interval_pct"][0] > 0 else "gain not certain: " if falls else "no gain shown: "
     before, after = (f"{error:.2g}" for error in raw.frequency)
-    errors = f"stay at {after} %" if before == after else f"{'rise' if raw.frequency[1] > raw.frequency[0] else 'fall'} from {before} to {after} %"
+    errors = f"stay at {after} %" if before == after else f"{'fall' if falls else 'rise'} from {before} to {after} %"
     return [f"{no}{which} frequency errors {errors}{_but(raw)}"] + ([f"{no}errors {errors}"] if raw.held_out and not _but(raw) else [])
 
 

@@ -88,16 +88,18 @@ std::vector<int> ElementPlaces::measured_nodes() const {
 }
 
 void ElementPlaces::add_zones(const std::vector<int>& centres, Places& places, std::vector<Eigen::Vector3d> points) const {
-  if (points.empty())
+  // If each element has a zone, an element is its own zone even if two have the same middle.
+  const bool is_each = points.empty() && centres.size() == candidates_.size();
+  if (is_each)
+    points = centroids_;
+  else if (points.empty())
     for (const int c : centres) points.push_back(centroids_[static_cast<std::size_t>(c)]);
   std::map<std::pair<std::size_t, std::string>, std::vector<std::size_t>> zones;  // positions of elements by centre and group
   std::vector<std::vector<int>> whole(points.size());                             // elements of each zone, of all groups
   std::vector<double> least(points.size(), std::numeric_limits<double>::infinity());
   const auto off = [&](std::size_t centre, std::size_t i) { return (centroids_[i] - points[centre]).squaredNorm(); };
   for (std::size_t i = 0; i < candidates_.size(); ++i) {
-    // If each element has a zone, an element is its own zone even if two have the same middle.
-    const std::size_t centre =
-        centres.size() == candidates_.size() ? i : static_cast<std::size_t>(nearest(points, centroids_[i]));
+    const std::size_t centre = is_each ? i : static_cast<std::size_t>(nearest(points, centroids_[i]));
     zones[{centre, model_.elements[static_cast<std::size_t>(candidates_[i])].group}].push_back(i);
     whole[centre].push_back(candidates_[i]);
     least[centre] = std::min(least[centre], off(centre, i));

@@ -295,6 +295,20 @@ TEST(ElementZones, AddUpToTheStructureWithoutItsStays) {
   EXPECT_LT((second->x_m - Vector3d(12.0, 0.0, 0.0)).norm(), 1e-12);
 }
 
+// Zones are chosen far from each other, which is another order than that of the elements.
+TEST(ElementZones, OfEachElementAreInItsMiddle) {
+  fe::Model model = fe::test::with_steel();
+  for (int i = 0; i < 8; ++i) fe::test::add_node(model, 2.0 * i, 0.0, 0.0);
+  for (int i = 0; i < 7; ++i) fe::test::add_element(model, fe::ElementType::beam, "girder", 0, 0, {i, i + 1});
+  model.supports.push_back({"left", 0, {true, true, true, true, true, true}});
+  const PlacesOf found(model);
+  for (int i = 0; i < 7; ++i) {
+    const Place* element = found.place("elements", "element:" + std::to_string(i + 1));
+    ASSERT_NE(element, nullptr) << i;
+    EXPECT_LT((element->x_m - Vector3d(2.0 * i + 1.0, 0.0, 0.0)).norm(), 1e-12) << i;
+  }
+}
+
 // An upright spring to the ground is a bearing; one along the deck leaves the node free to be held.
 TEST(NodePlaces, KnowTheBearingBelowThem) {
   fe::Model model = beam_with_stay();
