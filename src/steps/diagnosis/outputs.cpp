@@ -330,9 +330,11 @@ void write_diagnosis(const Diagnosis& result, const std::vector<diagnosis::Findi
   json["effects"] = nlohmann::ordered_json::array();
   for (const auto& effect : result.effects) json["effects"].push_back(effect_json(effect, told));
   json["measurement_corrections"] = nlohmann::ordered_json::array();
-  for (const records::Correction& c : told.corrections)
-    json["measurement_corrections"].push_back(
-        {{"channel", c.channel}, {"action", name_of(c.action)}, {"with", c.with}, {"factor", c.factor}, {"state", c.state}});
+  for (const records::Correction& c : told.corrections) {
+    nlohmann::ordered_json& entry = json["measurement_corrections"].emplace_back();
+    entry = {{"channel", c.channel}, {"action", name_of(c.action)}, {"with", c.with}, {"factor", c.factor}};
+    if (!c.state.empty()) entry["state"] = c.state;
+  }
   json["localisation"] = nlohmann::ordered_json::array();
   for (const auto& at : result.localisation)
     json["localisation"].push_back(
