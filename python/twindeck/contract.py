@@ -33,7 +33,7 @@ MODEL = {
     "loads": Columns("load node direction value unit", texts="load direction unit"),
 }
 NEEDED = ("nodes", "elements", "materials", "sections")
-PARAMETERS = Columns("name target of initial lower upper", "unit", texts="name target of unit", key="name")
+PARAMETERS = Columns("name target of initial lower upper", "unit nominal", texts="name target of unit", key="name")
 
 # column of a model's table -> the table and column where its value must stand
 REFERS = {**{f"node{i}": ("nodes", "node") for i in ("", *range(1, 9))}, "master": ("nodes", "node"), "slave": ("nodes", "node"),

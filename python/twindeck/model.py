@@ -152,6 +152,7 @@ def _parameters(frame) -> list:
             raise InputError(f"parameters, row {label}: lower, initial, upper are {entry['lower']}, {entry['initial']}, {entry['upper']}, "
                              "expected lower <= initial <= upper")
         entry["of"] = names
-        if is_empty(entry.get("unit")):
-            entry.pop("unit", None)
+        for key in ("unit", "nominal"):
+            if is_empty(entry.get(key)):
+                entry.pop(key, None)
     return entries

@@ -39,7 +39,7 @@ std::string sentence(const std::vector<FoundStay>& stays, const ModesExplained& 
 ModesExplained modes_explained(const ReducedModel& model, const FeatureSet& features, const ScatterOptions& scatter,
                                const ExplanationRule& rule) {
   const FeatureMap map(model, features, scatter);
-  const auto base = map.base(Eigen::VectorXd::Zero(std::ssize(map.nuisances())));
+  const auto base = map.base(map.standing());
   const Prediction prediction = map.predict(base, {}, false);
   ModesExplained out;
   for (std::size_t m = 0; m < map.measured_modes().size(); ++m) {

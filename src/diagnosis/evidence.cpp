@@ -82,7 +82,7 @@ std::vector<Finding> updating_findings(const std::vector<Claim>& claims) {
 /// Change of a mode's modal stiffness by moving dampers, according to the model: (f with / f without)² - 1 of its own modes,
 /// complex with dampers. Empty if the model has no partner for one of the two.
 std::optional<double> modelled_change(const FeatureMap& model, const std::string& mode) {
-  const Prediction asked = model.predict(model.base(Eigen::VectorXd::Zero(std::ssize(model.nuisances()))), {}, false);
+  const Prediction asked = model.predict(model.base(model.standing()), {}, false);
   double f[2] = {0.0, 0.0};
   for (std::size_t m = 0; asked.valid && m < model.measured_modes().size(); ++m) {
     const MeasuredMode& measured = model.measured_modes()[m];

@@ -351,7 +351,7 @@ ExtendedModel extended_model(const DiagnosedModel& model, const Places& places, 
   if (out.elements) return out;
   for (std::size_t p = 0; p < out.system.parameters.size(); ++p) {
     fe::Parameter& parameter = out.system.parameters[p];
-    parameter.initial = theta[static_cast<Index>(p)];
+    fe::set_fitted(parameter, theta[static_cast<Index>(p)]);
     parameter.lower = std::min(parameter.lower, parameter.initial);
     parameter.upper = std::max(parameter.upper, parameter.initial);
   }

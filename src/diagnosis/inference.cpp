@@ -130,7 +130,7 @@ Fit Inference::fitted(const std::vector<Cause>& causes, const VectorXd& start, b
     box.upper[j] = std::min(map_.nuisances()[static_cast<std::size_t>(j)].upper, kUnbounded);
   }
   VectorXd x0 = VectorXd::Zero(n + k);
-  if (start.size() >= n) x0.head(n) = start.head(n);
+  x0.head(n) = start.size() >= n ? start.head(n) : map_.standing();
   const Magnitudes magnitudes(causes, k);
   x0.tail(k) = magnitudes.scaled(causes);
   box.lower.tail(k).setConstant(-kScaledEnd);

@@ -461,7 +461,7 @@ std::string message_by_law(const Diagnosis& out, const ByLaw& engine) {
 Diagnosis diagnose(const Inference& whole, const DiagnoseOptions& options, std::uint64_t seed) {
   Diagnosis out;
   const FeatureMap& map = whole.map();
-  const FeatureMap::Base prior = map.base(VectorXd::Zero(static_cast<Index>(map.nuisances().size())));
+  const FeatureMap::Base prior = map.base(map.standing());
   const Prediction nominal = map.predict(prior, {}, false);
   out.verdict = Verdict::unknown;
   out.message = "the model predicts none of these rows";

@@ -57,7 +57,7 @@ std::optional<Finding> leave_out_unpaired(double least_mac, const ScatterOptions
                                           FeatureSet& features) {
   if (!(least_mac > 0.0)) return std::nullopt;
   const FeatureMap map(model, features, scatter);
-  const auto base = map.base(Eigen::VectorXd::Zero(static_cast<Eigen::Index>(map.nuisances().size())));
+  const auto base = map.base(map.standing());
   const Prediction prediction = map.predict(base, {}, false);
   std::set<std::pair<int, std::string>> unpaired;
   Finding found{"unpaired", "", {}, {}, ""};

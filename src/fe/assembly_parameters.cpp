@@ -66,14 +66,20 @@ Eigen::VectorXd initial_parameters(const Model& model) {
   return theta;
 }
 
+void set_fitted(Parameter& parameter, double value) {
+  if (value != parameter.initial) parameter.nominal = parameter.expected();
+  parameter.initial = value;
+}
+
 Model with_parameters(const Model& model, const Eigen::VectorXd& theta) {
   const Eigen::VectorXd standing = initial_parameters(model);
   TWINDECK_ASSERT(theta.size() == standing.size());
   Model changed = model;
   for (std::size_t p = 0; p < model.parameters.size(); ++p) {
     const auto row = static_cast<Eigen::Index>(p);
-    if (theta[row] != standing[row]) scale(changed, model.parameters[p], theta[row] / standing[row]);
-    changed.parameters[p].initial = theta[row];
+    if (theta[row] == standing[row]) continue;
+    scale(changed, model.parameters[p], theta[row] / standing[row]);
+    set_fitted(changed.parameters[p], theta[row]);
   }
   return changed;
 }

@@ -4,6 +4,7 @@
 #include <array>
 #include <cstdint>
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -164,6 +165,9 @@ struct Parameter {
   double initial = 0.0;
   double lower = 0.0;  ///< bounds; equal to `initial` on both sides means fixed
   double upper = 0.0;
+  std::optional<double> nominal = std::nullopt;  ///< value before it was fitted to measurements; none: never fitted
+
+  [[nodiscard]] double expected() const { return nominal.value_or(initial); }  ///< without those measurements
 };
 
 /// Displacements under dead load and cable forces.

@@ -27,7 +27,7 @@ void save_model(const dynamics::LoadedModel& loaded, const Eigen::VectorXd& thet
   } else {
     fe::ParametricSystem system = loaded.system;
     for (std::size_t p = 0; p < system.parameters.size(); ++p)
-      system.parameters[p].initial = theta[static_cast<Eigen::Index>(p)];
+      fe::set_fitted(system.parameters[p], theta[static_cast<Eigen::Index>(p)]);
     write_matrix_model(system, folder);
   }
   carry_load_cases(loaded.source, folder);

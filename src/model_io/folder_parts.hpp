@@ -12,9 +12,6 @@
 /// Each function throws InputError with file, line and column.
 namespace twindeck::model_io {
 
-/// Of a parameter's initial value and bounds: beyond, what it scales leaves the range of doubles.
-[[nodiscard]] inline io::Range parameter_range() { return {-1e30, 1e30}; }
-
 /// Finds parts by the names that the files use; fills the 0-based positions of fe::Model.
 struct NameIndex {
   std::map<long, int> nodes;

@@ -17,25 +17,22 @@
 #include "model_io/export_matrices.hpp"
 #include "model_io/folder_parts.hpp"
 #include "model_io/names.hpp"
+#include "model_io/parameter_entry.hpp"
 
 namespace twindeck::model_io {
 namespace {
 
 /// [[parameter]] of a matrix model: K gains theta · matrix (or M does).
-struct MatrixParameter {
-  std::string name, matrix, target = "stiffness", group, unit = "-";
-  double initial = 0.0, lower = 0.0, upper = 0.0;
+struct MatrixParameter : ParameterEntry {
+  std::string matrix, target = "stiffness", group;
 
   io::FieldTable fields() {
+    unit = "-";
     io::FieldTable table;
-    table.text("name", name, "name of the parameter", true)
-        .text("matrix", matrix, "file of K_i or M_i: Matrix Market, or .op4 of Nastran", true)
+    add_to(table);
+    table.text("matrix", matrix, "file of K_i or M_i: Matrix Market, or .op4 of Nastran", true)
         .choice("target", target, {"stiffness", "mass"}, "which matrix the parameter adds to")
-        .text("group", group, "name of what the parameter stands for (default: its own name)")
-        .text("unit", unit, "unit of initial, lower and upper")
-        .number("initial", initial, "", parameter_range(), "value as the model stands", true)
-        .number("lower", lower, "", parameter_range(), "lower bound", true)
-        .number("upper", upper, "", parameter_range(), "upper bound", true);
+        .text("group", group, "name of what the parameter stands for (default: its own name)");
     return table;
   }
 };
@@ -85,30 +82,23 @@ std::vector<fe::DofLabel> read_dofs(const std::filesystem::path& folder) {
 int add_parameter(const std::filesystem::path& file, const MatrixParameter& entry, fe::ParametricSystem& system,
                   std::set<std::pair<std::string, std::string>>& seen) {
   const auto refuse = [&](const std::string& problem, const std::string& mend) {
-    return InputError({file.string(), line_of(file, "\"" + entry.name + "\""), "parameter " + entry.name}, problem, mend);
+    return parameter_error(file, entry.name, problem, mend);
   };
   if (!seen.emplace(entry.name, entry.target).second)
     throw refuse("appears twice with target " + entry.target, "give each parameter a name of its own");
-  if (!(entry.lower <= entry.initial && entry.initial <= entry.upper))
-    throw refuse(fmt::format("lower, initial, upper are {}, {}, {}, expected lower <= initial <= upper",
-                             io::format_number(entry.lower), io::format_number(entry.initial), io::format_number(entry.upper)),
-                 "put the bounds around the initial value");
-  const fe::Target target = entry.target == "mass" ? fe::Target::matrix_mass : fe::Target::matrix_stiffness;
+  fe::Parameter parameter = entry.parameter(file);
+  parameter.target = entry.target == "mass" ? fe::Target::matrix_mass : fe::Target::matrix_stiffness;
+  parameter.of = {entry.group.empty() ? entry.name : entry.group};
   for (std::size_t i = 0; i < system.parameters.size(); ++i) {
     const auto& known = system.parameters[i];
     if (known.name != entry.name) continue;
-    if (known.initial != entry.initial || known.lower != entry.lower || known.upper != entry.upper)
+    if (known.initial != entry.initial || known.lower != entry.lower || known.upper != entry.upper ||
+        known.nominal != parameter.nominal)
       throw refuse("has other values for the mass than for the stiffness",
                    "give both entries the same initial value and bounds");
     return static_cast<int>(i);
   }
-  system.parameters.push_back({entry.name,
-                               target,
-                               {entry.group.empty() ? entry.name : entry.group},
-                               entry.unit,
-                               entry.initial,
-                               entry.lower,
-                               entry.upper});
+  system.parameters.push_back(std::move(parameter));
   return static_cast<int>(system.parameters.size()) - 1;
 }
 
@@ -192,8 +182,7 @@ std::string parameter_text(const fe::Parameter& p, const std::string& matrix, co
                                  io::toml_text(matrix), target);
   if (p.of.size() == 1 && p.of[0] != p.name) text += fmt::format("group = {}\n", io::toml_text(p.of[0]));
   // Shortest decimal form that reads back to the same bits: these numbers multiply matrices of 17 digits.
-  return text + fmt::format("unit = {}\ninitial = {}\nlower = {}\nupper = {}\n", io::toml_text(p.unit),
-                            io::toml_number(p.initial), io::toml_number(p.lower), io::toml_number(p.upper));
+  return text + parameter_lines(p, io::toml_number);
 }
 
 }  // namespace

@@ -16,25 +16,21 @@
 #include "model_io/folder_parts.hpp"
 #include "model_io/load_cases.hpp"
 #include "model_io/names.hpp"
+#include "model_io/parameter_entry.hpp"
 
 namespace twindeck::model_io {
 namespace {
 
 /// [[parameter]] as it stands in the file.
-struct ParameterEntry {
-  std::string name, target = "youngs_modulus", unit;
+struct ElementParameter : ParameterEntry {
+  std::string target = "youngs_modulus";
   std::vector<std::string> of;
-  double initial = 0.0, lower = 0.0, upper = 0.0;
 
   io::FieldTable fields() {
     io::FieldTable table;
-    table.text("name", name, "name of the parameter", true)
-        .choice("target", target, target_names(), "what it scales")
-        .texts("of", of, "names of the materials, sections or groups that it applies to")
-        .text("unit", unit, "unit of initial, lower and upper: SI, or - for a factor")
-        .number("initial", initial, "", parameter_range(), "value as the model stands", true)
-        .number("lower", lower, "", parameter_range(), "lower bound", true)
-        .number("upper", upper, "", parameter_range(), "upper bound", true);
+    add_to(table);
+    table.choice("target", target, target_names(), "what it scales")
+        .texts("of", of, "names of the materials, sections or groups that it applies to");
     return table;
   }
 };
@@ -71,7 +67,7 @@ struct ModelEntry {
   std::string displacements = "linear";
   long load_steps = 1;
   std::deque<MatrixElementEntry> matrix_elements;
-  std::deque<ParameterEntry> parameters;  // a deque: the field tables keep references while it grows
+  std::deque<ElementParameter> parameters;  // a deque: the field tables keep references while it grows
 
   io::FieldTable fields() {
     io::FieldTable table;
@@ -121,29 +117,22 @@ InputError key_error(const std::filesystem::path& file, const std::string& ancho
   return InputError({file.string(), line_of(file, anchor), key}, problem, mend);
 }
 
-fe::Parameter to_parameter(const std::filesystem::path& file, const fe::Model& model, const ParameterEntry& entry) {
-  const std::string anchor = "\"" + entry.name + "\"";
-  const std::string key = "parameter " + entry.name;
-  fe::Parameter p{entry.name,    static_cast<fe::Target>(position_of(entry.target, target_names())),
-                  entry.of,      entry.unit,
-                  entry.initial, entry.lower,
-                  entry.upper};
+fe::Parameter to_parameter(const std::filesystem::path& file, const fe::Model& model, const ElementParameter& entry) {
+  const auto refuse = [&](const std::string& problem, const std::string& mend) {
+    return parameter_error(file, entry.name, problem, mend);
+  };
+  fe::Parameter p = entry.parameter(file);
+  p.target = static_cast<fe::Target>(position_of(entry.target, target_names()));
+  p.of = entry.of;
   if (p.of.empty())
-    throw key_error(file, anchor, key, "'of' is missing or empty",
-                    fmt::format("name the {} that it applies to", fe::kind_of(p.target)));
+    throw refuse("'of' is missing or empty", fmt::format("name the {} that it applies to", fe::kind_of(p.target)));
   const auto known = fe::names_of_target(model, p.target);
   for (const auto& name : p.of)
     if (position_of(name, known) < 0)
-      throw key_error(file, anchor, key,
-                      fmt::format("no {} is called '{}'{}", fe::kind_of(p.target), name, did_you_mean(name, known)),
-                      "'of' lists names of the model's own files");
-  if (!(p.lower <= p.initial && p.initial <= p.upper))
-    throw key_error(file, anchor, key,
-                    fmt::format("lower, initial, upper are {}, {}, {}, expected lower <= initial <= upper",
-                                io::format_number(p.lower), io::format_number(p.initial), io::format_number(p.upper)),
-                    "put the bounds around the initial value");
+      throw refuse(fmt::format("no {} is called '{}'{}", fe::kind_of(p.target), name, did_you_mean(name, known)),
+                   "'of' lists names of the model's own files");
   for (const auto& other : model.parameters)
-    if (other.name == p.name) throw key_error(file, anchor, key, "appears twice", "give each parameter a name of its own");
+    if (other.name == p.name) throw refuse("appears twice", "give each parameter a name of its own");
   return p;
 }
 
@@ -309,10 +298,9 @@ void write_model_toml(const fe::Model& model, const std::filesystem::path& folde
   text += write_matrix_elements(model, folder);
   for (const auto& q : model.parameters) {
     TWINDECK_ASSERT(static_cast<std::size_t>(q.target) < target_names().size());
-    text +=
-        fmt::format("\n[[parameter]]\nname = {}\ntarget = \"{}\"\nof = {}\nunit = {}\ninitial = {}\nlower = {}\nupper = {}\n",
-                    io::toml_text(q.name), target_names()[static_cast<std::size_t>(q.target)], text_list(q.of),
-                    io::toml_text(q.unit), number(q.initial), number(q.lower), number(q.upper));
+    text += fmt::format("\n[[parameter]]\nname = {}\ntarget = \"{}\"\nof = {}\n", io::toml_text(q.name),
+                        target_names()[static_cast<std::size_t>(q.target)], text_list(q.of)) +
+            parameter_lines(q, io::format_number);
   }
   io::write_file_atomically(folder / "model.toml", text);
 }

@@ -184,8 +184,10 @@ void FeatureMap::list_nuisances(const ScatterOptions& scatter) {
   };
   for (std::size_t p = 0; p < model_.parameters.size(); ++p) {
     const fe::Parameter& parameter = model_.parameters[p];
-    const double deviation = 0.25 * (parameter.upper - parameter.lower), mean = model_.theta[static_cast<Index>(p)];
+    const double deviation = 0.25 * (parameter.upper - parameter.lower);
     if (!(deviation > 0.0)) continue;
+    // Step 6 may have fitted the value to these very data, which must not serve as the prior too.
+    const double mean = parameter.nominal.value_or(model_.theta[static_cast<Index>(p)]);
     add(Nuisance::Kind::parameter, static_cast<int>(p), parameter.name, mean, deviation, (parameter.lower - mean) / deviation,
         (parameter.upper - mean) / deviation);
   }
@@ -216,6 +218,10 @@ void FeatureMap::list_nuisances(const ScatterOptions& scatter) {
     const Condition& condition = features_.conditions[static_cast<std::size_t>(level / 2)];
     add(Nuisance::Kind::level, level, condition.name + (level % 2 ? " noise level" : " load level"), 0.0, 10.0, -kFree, kFree);
   }
+  standing_ = Eigen::VectorXd::Zero(std::ssize(nuisances_));
+  for (std::size_t j = 0; j < nuisances_.size(); ++j)
+    if (const Nuisance& v = nuisances_[j]; v.kind == Nuisance::Kind::parameter)
+      standing_[static_cast<Index>(j)] = (model_.theta[v.index] - v.mean) / v.deviation;
 }
 
 bool FeatureMap::same_state(int a, int b) const {

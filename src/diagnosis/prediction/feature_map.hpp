@@ -92,6 +92,8 @@ class FeatureMap {
     bool keeps = false;  ///< states with causes are kept too, because the same causes are predicted again
   };
   [[nodiscard]] Base base(const Eigen::VectorXd& x) const;
+  /// (n_nuisances) x of the model as it stands. Parameters that were fitted to measurements differ from their prior's mean.
+  [[nodiscard]] const Eigen::VectorXd& standing() const { return standing_; }
 
   /// Location of a nuisance parameter, and the matrix that it scales.
   [[nodiscard]] const ReducedPlace& place_of(const Nuisance& v) const;
@@ -137,6 +139,7 @@ class FeatureMap {
   std::vector<std::string> states_;  ///< of the structure; the others are compared with the first
   std::vector<MeasuredMode> modes_;
   std::vector<Nuisance> nuisances_;
+  Eigen::VectorXd standing_;
   std::vector<std::string> damping_modes_;
   bool damping_by_dampers_ = false;
   std::map<std::string, int> bound_modes_;

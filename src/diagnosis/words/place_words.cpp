@@ -229,7 +229,11 @@ PlaceInWords PlaceWords::zone(const std::string& location, const std::string& na
       const std::string group = most_frequent(counts), part = group.empty() ? "element " + name : "the " + group;
       const std::string here = coordinates(place.x_m);
       if (here.empty()) return {part, place.x_m};
-      return {fmt::format("{} {} {}{}", part, place.elements.size() > 1 ? "round" : "at", here, near(place.x_m)), place.x_m};
+      const std::string beside = near(place.x_m);
+      if (place.elements.size() > 1) return {fmt::format("{} round {}{}", part, here, beside), place.x_m};
+      return {group.empty() ? fmt::format("{} at {}{}", part, here, beside)
+                            : fmt::format("{} at {} (element {}{})", part, here, name, beside),
+              place.x_m};
     }
   }
   return {"element " + name, kNowhere};

@@ -6,6 +6,7 @@
 #include <map>
 #include <nlohmann/json.hpp>
 #include <optional>
+#include <set>
 
 #include "core/lists.hpp"
 #include "diagnosis/bar_stays_effect.hpp"
@@ -227,6 +228,13 @@ void write_hypotheses(const Diagnosis& result, const std::vector<diagnosis::Invi
   csv.save(file);
 }
 
+/// Rows of modes without a counterpart in the model before or after, which do not compare the two.
+std::set<int> not_compared(const Diagnosis& result) {
+  std::set<int> open(result.before.all.open.begin(), result.before.all.open.end());
+  open.insert(result.after.all.open.begin(), result.after.all.open.end());
+  return open;
+}
+
 /// gain.csv: `type,mode,condition,rows,before,after`: RMS of standardised residuals of held-out rows by kind.
 void write_gain(const Inference& inference, const Diagnosis& result, const std::filesystem::path& file) {
   io::CsvWriter csv({"type", "mode", "condition", "rows", "before", "after"});
@@ -237,7 +245,9 @@ void write_gain(const Inference& inference, const Diagnosis& result, const std::
     double before = 0.0, after = 0.0;
   };
   std::map<std::tuple<std::string, std::string, std::string>, Sum> sums;
+  const std::set<int> open = not_compared(result);
   for (const int r : inference.held_out()) {
+    if (open.contains(r)) continue;
     const Row& row = features.rows[static_cast<std::size_t>(r)];
     Sum& sum = sums[{name_of(row.type), row.mode, features.condition_of(row).name}];
     sum.rows += 1;
@@ -266,16 +276,22 @@ void write_unknowns(const Inference& inference, const Diagnosis& result, const s
   csv.save(file);
 }
 
-/// pairs.csv: `mode,condition,measured_Hz,before_Hz,after_Hz,mac_before,mac_after`: each measured mode with the model's that it
-/// is compared with, without and with the causes; MAC over the channels of that mode.
+/// pairs.csv: `mode,condition,measured_Hz,before_Hz,after_Hz,mac_before,mac_after,given_Hz,mac_given`: each measured mode with
+/// the model's that it is compared with, fitted without and with the causes, and as the step read it; MAC over the channels of
+/// that mode.
 void write_pairs(const Inference& inference, const Diagnosis& result, const std::filesystem::path& file) {
-  io::CsvWriter csv({"mode", "condition", "measured_Hz", "before_Hz", "after_Hz", "mac_before", "mac_after"});
+  io::CsvWriter csv(
+      {"mode", "condition", "measured_Hz", "before_Hz", "after_Hz", "mac_before", "mac_after", "given_Hz", "mac_given"});
   const auto& map = inference.map();
+  const diagnosis::Prediction given = map.predict(map.base(map.standing()), {}, false);
+  const auto hertz = [](double f) { return f > 0.0 ? std::optional<double>(f) : std::nullopt; };
   const auto known = [](double mac) { return std::isfinite(mac) ? std::optional<double>(mac) : std::nullopt; };
   for (std::size_t m = 0; m < map.measured_modes().size(); ++m) {
     const diagnosis::MeasuredMode& mode = map.measured_modes()[m];
-    csv.row({mode.label, map.features().condition_of(mode).name, mode.frequency_Hz, result.before.all.frequency_Hz[m],
-             result.after.all.frequency_Hz[m], known(result.before.all.mac[m]), known(result.after.all.mac[m])});
+    const auto &before = result.before.all, &after = result.after.all;
+    csv.row({mode.label, map.features().condition_of(mode).name, mode.frequency_Hz, hertz(before.frequency_Hz[m]),
+             hertz(after.frequency_Hz[m]), known(before.mac[m]), known(after.mac[m]), hertz(given.frequency_Hz[m]),
+             known(given.mac[m])});
   }
   csv.save(file);
 }
@@ -286,9 +302,11 @@ void write_misfit(const Inference& inference, const Diagnosis& result, const std
   io::CsvWriter csv({"by", "name", "rows", "mean_square_before", "mean_square_after"});
   const auto& features = inference.map().features();
   const VectorXd e0 = standardised_residuals(inference, result.before), e1 = standardised_residuals(inference, result.after);
+  const std::set<int> open = not_compared(result);
   for (const std::string by : {"type", "condition", "mode", "channel"}) {
     std::map<std::string, std::array<double, 3>> sums;
     for (std::size_t r = 0; r < features.rows.size(); ++r) {
+      if (open.contains(static_cast<int>(r))) continue;
       const Row& row = features.rows[r];
       const std::string name = by == "type"        ? name_of(row.type)
                                : by == "condition" ? features.condition_of(row).name

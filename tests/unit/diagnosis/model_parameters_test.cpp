@@ -15,9 +15,10 @@ using Eigen::VectorXd;
 /// Three masses between walls, the second spring a parameter of 0.8 to 1.2; its truth is 1.1.
 class OneParameter {
  public:
-  explicit OneParameter(double relative_std)
-      : model_(nodes_in_a_row(3), springs(1.0) - second(), mass(),
-               {{{"k2", fe::Target::matrix_stiffness, {}, "-", 1.0, 0.8, 1.2}, second()}}) {
+  /// @param updated  value that an update left in the model, 1 = none was made
+  explicit OneParameter(double relative_std, double updated = 1.0)
+      : model_(nodes_in_a_row(3), springs(updated) - updated * second(), mass(),
+               {{{"k2", fe::Target::matrix_stiffness, {}, "-", updated, 0.8, 1.2, 1.0}, updated * second()}}) {
     const VectorXd hertz = OneParameter::hertz(1.1);
     for (Eigen::Index i = 0; i < hertz.size(); ++i)
       model_.add_row(diagnosis::RowType::frequency, std::to_string(i + 1), -1, hertz[i], relative_std * hertz[i]);
@@ -86,6 +87,18 @@ TEST(ModelParameters, ThatTheRowsTellHaveTheirValueAndItsDeviation) {
               1e-3 * (found.before.high - found.before.low));
   EXPECT_NEAR(found.before.high - found.before.value, found.before.value - found.before.low, 1e-9);
   EXPECT_EQ(found.after.value, found.before.value);
+}
+
+// Oracle: the same rows and the same prior give the same posterior, wherever the model stands: to a fiftieth of the interval,
+// because the scatter is a share of the springs as they stand.
+TEST(ModelParameters, AnUpdateToTheSameRowsIsNoPrior) {
+  for (const double std : {1e3, 3e-3, 3e-2}) {
+    const ModelParameter plan = OneParameter(std).estimated(), updated = OneParameter(std, 1.09).estimated();
+    const double close = (plan.before.high - plan.before.low) / 50.0;
+    EXPECT_NEAR(updated.before.value, plan.before.value, close);
+    EXPECT_NEAR(updated.before.low, plan.before.low, close);
+    EXPECT_NEAR(updated.before.high, plan.before.high, close);
+  }
 }
 
 TEST(ModelParameters, ACauseScalesItsParameterAndBothDeviationsCount) {

@@ -43,6 +43,8 @@ TEST(AssemblyParameters, ValuesAreWrittenIntoTheModel) {
   EXPECT_DOUBLE_EQ(changed.masses[0].mass_kg, 150.0);
   EXPECT_LT((changed.masses[0].inertia_kg_m2 - Eigen::Vector3d(2.5, 3.0, 3.5)).norm(), 1e-15);
   EXPECT_EQ(initial_parameters(changed), theta);
+  for (std::size_t p = 0; p < model.parameters.size(); ++p)
+    EXPECT_EQ(with_parameters(changed, 2.0 * theta).parameters[p].nominal, model.parameters[p].initial);
 }
 
 // Oracle: going back gives the first model (each ratio and its inverse are powers of two: no rounding).

@@ -115,11 +115,29 @@ TEST(MatrixModel, RefusesWhatDoesNotFit) {
   EXPECT_NE(refused("dofs.csv", "2,right,x", "2,right,u").find("unknown direction 'u'"), std::string::npos);
   EXPECT_NE(refused("dofs.csv", "2,right,x", "2,left,x").find("twice"), std::string::npos);
   EXPECT_NE(refused("model.toml", "upper = 4.0", "upper = 1.5").find("lower <= initial <= upper"), std::string::npos);
+  EXPECT_NE(refused("model.toml", "upper = 4.0", "upper = 4.0\nnominal = 5.0").find("lower <= nominal <= upper"),
+            std::string::npos);
   EXPECT_NE(refused("model.toml", "\"Mb.mtx\"\ntarget = \"mass\"", "\"Mb.mtx\"\ntarget = \"damping\"").find("damping"),
             std::string::npos);
   EXPECT_NE(refused("model.toml", "matrix = \"Ka.mtx\"", "matrix = \"Kx.mtx\"").find("Kx.mtx"), std::string::npos);
   EXPECT_NE(refused("model.toml", "M = \"M0.mtx\"", "").find("matrices.M"), std::string::npos);
   EXPECT_NE(message_of([&] { (void)read_model(folder.path()); }).find("matrix model"), std::string::npos);
+}
+
+// Oracle: the value of the first folder, through two fits.
+TEST(MatrixModel, KeepsTheValueBeforeTheFirstFit) {
+  const TestFolder folder;
+  write_two_masses(folder);
+  const fe::ParametricSystem system = read_matrix_model(folder.path());
+  EXPECT_FALSE(system.parameters[0].nominal.has_value());
+  dynamics::LoadedModel loaded = dynamics::solvable(read_model_folder(folder.path()));
+  for (const double fitted : {3.0, 1.5}) {
+    save_model(loaded, Eigen::Vector2d(fitted, system.parameters[1].initial), folder.path() / "fitted");
+    loaded = dynamics::solvable(read_model_folder(folder.path() / "fitted"));
+    EXPECT_EQ(loaded.system.parameters[0].initial, fitted);
+    EXPECT_EQ(loaded.system.parameters[0].nominal, system.parameters[0].initial);
+    EXPECT_FALSE(loaded.system.parameters[1].nominal.has_value());
+  }
 }
 
 TEST(MatrixModel, ExportedMatricesAreThoseOfTheParameters) {

@@ -95,6 +95,7 @@ TEST(ModelRoundTrip, ReturnsPropertiesAndParameters) {
     EXPECT_EQ(a.parameters[i].initial, b.parameters[i].initial);
     EXPECT_EQ(a.parameters[i].lower, b.parameters[i].lower);
     EXPECT_EQ(a.parameters[i].upper, b.parameters[i].upper);
+    EXPECT_EQ(a.parameters[i].nominal, b.parameters[i].nominal);
   }
 }
 
