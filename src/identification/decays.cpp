@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "identification/mode_choices.hpp"
+#include "identification/releases.hpp"
 #include "identification/sampling.hpp"
 
 namespace twindeck::identification {
@@ -42,30 +43,6 @@ void read_by_amplitude(DecayResult& result, const Eigen::MatrixXd& decay, double
     const auto partner = partner_of(mode, result.conditioned.channels, ambient);
     result.by_amplitude.push_back({partner ? std::to_string(partner->mode + 1) : "", record, m, points});
   }
-}
-
-/// [-] mean square of the motion from sample to sample, channels in units of their own.
-Eigen::VectorXd energy_of(const Samples& data) {
-  const Eigen::VectorXd scale = data.colwise().squaredNorm().transpose().cwiseMax(1e-300);
-  return (data.array().square().rowwise() / scale.transpose().array()).rowwise().sum();
-}
-
-/// First sample after the release: where the motion's running RMS over half a second is largest. @param data (n_samples ×
-/// n_channels)
-Index release_sample(const Samples& data, double rate_Hz) {
-  const Index half = std::max<Index>(2, static_cast<Index>(std::lround(0.5 * rate_Hz)));
-  if (data.rows() <= 2 * half) return 0;
-  const Eigen::VectorXd energy = energy_of(data);
-  double sum = energy.head(half).sum(), most = sum;
-  Index best = 0;
-  for (Index t = 1; t + half <= energy.size(); ++t) {
-    sum += energy[t + half - 1] - energy[t - 1];
-    if (sum > most) {
-      most = sum;
-      best = t;
-    }
-  }
-  return best;
 }
 
 /// Number of samples until the motion has fallen to three times its final RMS; all samples if it does not come to rest.
@@ -177,10 +154,13 @@ std::vector<DecayResult> identify_free_decays(const std::vector<Conditioned>& re
     if (own.highest_Hz == 0.0) own.highest_Hz = band_end(conditioned);
     const auto skipped = static_cast<Index>(std::lround(config.decay_start_s * conditioned.rate_Hz));
     std::vector<Eigen::MatrixXd> whole, pieces, quiet;
-    for (const Samples& record : conditioned.records) {
-      const Index from = std::min(release_sample(record, conditioned.rate_Hz) + skipped, record.rows() - 1);
-      whole.emplace_back(record.bottomRows(record.rows() - from));
-    }
+    std::vector<std::string> files;  // of `whole`
+    for (std::size_t i = 0; i < conditioned.records.size(); ++i)
+      for (const auto& [release, samples] : decays_of(conditioned.records[i], conditioned.rate_Hz)) {
+        const Index after = std::min(skipped, samples - 1);
+        whole.emplace_back(conditioned.records[i].middleRows(release + after, samples - after));
+        files.push_back(conditioned.files[i]);
+      }
     const Index length = length_of(whole, conditioned.rate_Hz, own, result.note);
     if (!result.note.empty())
       result.note = fmt::format("setup {}: a free decay of {} samples is too short for all limits: {}", conditioned.setup,
@@ -197,12 +177,16 @@ std::vector<DecayResult> identify_free_decays(const std::vector<Conditioned>& re
     result.found = identify_decays(pieces, conditioned.rate_Hz, options, seed, quiet);
     const auto tests = std::count_if(records.begin(), records.end(),
                                      [&](const Conditioned& other) { return other.condition == conditioned.condition; });
-    if (tests == 1 && options.selection == Selection::automatic) drop_noise_of_a_decay(result.found, length);
+    if (tests == 1 && options.selection == Selection::automatic)
+      if (const auto dropped = drop_noise_of_a_decay(result.found, length); !dropped.empty())
+        result.note +=
+            fmt::format("{}setup {}: left out because the noise of one decay may have them: {}; a second decay tells",
+                        result.note.empty() ? "" : "; ", conditioned.setup, fmt::join(dropped, ", "));
     to_physical_shapes(result.found, conditioned.channels, scale);
     take_choices(result.found, config.choices, conditioned, scale);
     const ConditionResult* ambient = condition_named(results, conditioned.condition);
     for (std::size_t i = 0; i < whole.size(); ++i)
-      read_by_amplitude(result, whole[i], conditioned.rate_Hz, conditioned.files[i], config, ambient);
+      read_by_amplitude(result, whole[i], conditioned.rate_Hz, files[i], config, ambient);
     decays.push_back(std::move(result));
   }
   return decays;

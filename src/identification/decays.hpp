@@ -14,7 +14,7 @@ namespace twindeck::identification {
 struct DecayResult {
   ConditionedInfo conditioned;
   Identification found;  ///< ERA
-  std::string note;      ///< limits that were lowered because the records are short; empty for none
+  std::string note;      ///< lowered limits of short records, and poles that were left out; empty for none
   /// A mode's frequency and damping by amplitude.
   struct ByAmplitude {
     std::string mode;  ///< name in the condition's modes.csv, empty if the mode is not there

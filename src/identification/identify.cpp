@@ -1,5 +1,7 @@
 #include "identification/identify.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -127,12 +129,19 @@ void drop_undetermined(Identification& result, const IdentifyOptions& options, d
   keep_modes(result, stays);
 }
 
-void drop_noise_of_a_decay(Identification& result, Eigen::Index samples) {
+std::vector<std::string> drop_noise_of_a_decay(Identification& result, Eigen::Index samples) {
   const double largest = std::sqrt(2.0 * std::log(static_cast<double>(samples)));
   std::vector<bool> stays;
-  for (std::size_t m = 0; m < result.modes.size(); ++m)
-    stays.push_back(result.modes[m].damping_ratio > largest * result.deviations[m].damping_ratio);
+  std::vector<std::string> dropped;
+  for (std::size_t m = 0; m < result.modes.size(); ++m) {
+    const double damping = result.modes[m].damping_ratio, deviation = result.deviations[m].damping_ratio;
+    stays.push_back(damping > largest * deviation);
+    if (!stays.back())
+      dropped.push_back(fmt::format("{:.4g} Hz (damping ratio {:.2g} % with a deviation of {:.2g} %)",
+                                    result.modes[m].frequency_Hz, 100.0 * damping, 100.0 * deviation));
+  }
   keep_modes(result, stays);
+  return dropped;
 }
 
 void drop_better_than_random(Identification& result, double seconds) {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <string>
 #include <vector>
 
 #include "core/samples.hpp"
@@ -105,7 +106,8 @@ void drop_undetermined(Identification& result, const IdentifyOptions& options, d
 
 /// Drops poles of a single free decay that may be noise. The largest of n samples of noise reaches sqrt(2 ln n) standard
 /// deviations (Donoho and Johnstone 1994); a mode's damping ratio must exceed as many of its own.
-void drop_noise_of_a_decay(Identification& result, Eigen::Index samples);
+/// @return what was dropped, in words
+std::vector<std::string> drop_noise_of_a_decay(Identification& result, Eigen::Index samples);
 
 /// Drops modes of an ambient record with smaller deviations than random forces allow: below the lower limit of IdentifyOptions
 /// by more than chance. The uncertainty of a deviation follows from the number of blocks (columns of the factor); with twenty

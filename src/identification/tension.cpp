@@ -15,6 +15,7 @@ namespace {
 constexpr double kGravity_m_s2 = 9.81;
 constexpr double kSeen = 0.85;           ///< probability that a record shows a harmonic below the highest one
 constexpr double kWorthComparing = 7.0;  ///< [nats] below the most probable numbering; less probable ones are dropped
+constexpr double kAtANode = 0.05;        ///< probability that the sensor sits at the node of a harmonic, for each of two
 constexpr double kWorthNaming = 0.01;    ///< probability
 
 struct Explained {
@@ -24,14 +25,27 @@ struct Explained {
   double log_probability = 0.0;
 };
 
+/// ln probability that a record shows just these harmonics of all up to the highest. Each is missed by chance; a sensor at mid
+/// length or at a third of it misses every second or third one together.
+double log_probability_of(const Numbers& numbers) {
+  const int highest = numbers.rbegin()->first;
+  const auto seen = static_cast<double>(numbers.size());
+  const auto with_missed = [&](double missed) { return seen * std::log(kSeen) + missed * std::log(1.0 - kSeen); };
+  double sum = std::exp(with_missed(highest - seen));
+  for (const int node : {2, 3}) {
+    const bool hidden = std::ranges::none_of(numbers, [&](const auto& n) { return n.first % node == 0; });
+    if (hidden) sum += kAtANode * std::exp(with_missed(highest - seen - highest / node));
+  }
+  return std::log(sum);
+}
+
 Explained explain(const std::vector<Harmonic>& frequencies, const Numbers& numbers, const StaySection& section, Effort effort) {
   Explained result;
   result.numbers = numbers;
   for (const auto& [number, at] : numbers)
     result.harmonics.push_back({number, frequencies[at].frequency_Hz, frequencies[at].deviation_Hz});
   result.posterior = stay_posterior(result.harmonics, section, effort);
-  const auto seen = static_cast<double>(numbers.size()), missing = numbers.rbegin()->first - seen;
-  result.log_probability = result.posterior.log_evidence + seen * std::log(kSeen) + missing * std::log(1.0 - kSeen);
+  result.log_probability = result.posterior.log_evidence + log_probability_of(numbers);
   return result;
 }
 
