@@ -138,6 +138,13 @@ struct Loads {
   }
 };
 
+/// A static solution.
+struct LoadStep {
+  Loads loads;
+  bool large = false;
+  std::optional<long> substeps;  ///< as in Parts
+};
+
 struct Parts : DeckModel {
   explicit Parts(const std::filesystem::path& file) : deck(file, parameters) {}
 
@@ -167,11 +174,15 @@ struct Parts : DeckModel {
   std::vector<Link> links;
   std::map<long, std::vector<Couple>> couples;
   std::vector<Equation> equations;
-  Loads loads;                                                                ///< as they stand
-  std::map<long, std::map<int, Property>> movements;                          ///< of supports, by node and direction
-  bool prestressed = false, perturbed = false, modal = false, large = false;  ///< PSTRES, PERTURB, ANTYPE, NLGEOM
+  Loads loads;                                                 ///< as they stand
+  std::map<long, std::map<int, Property>> movements;           ///< of supports, by node and direction
+  bool prestressed = false, perturbed = false, large = false;  ///< PSTRES, PERTURB, NLGEOM
+  bool modal = false, is_static = true;                        ///< ANTYPE: one of them, or neither
   long large_line = 0, prestress_line = 0;
-  std::optional<Loads> stage;  ///< loads of the last static solution
+  std::optional<long> substeps = 1;  ///< of a load step; empty where the program chooses them
+  std::vector<LoadStep> load_steps;  ///< of the static analysis so far
+  bool starts_anew = true;           ///< the next static solution is the first load step of an analysis
+  std::optional<Loads> stage;  ///< loads of the static solution that the modes are asked about: the last, if none is named
   bool stage_is_large = false, stage_asked = false;
 
   [[nodiscard]] DeckPlace at(long line, const std::string& label) const { return {&deck.path(), line, label}; }

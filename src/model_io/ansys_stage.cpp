@@ -161,6 +161,57 @@ class Loader {
   DeckStage stage_;
 };
 
+void take_stage(Parts& parts, const LoadStep& step) {
+  parts.stage = step.loads;
+  parts.stage_is_large = step.large;
+}
+
+/// ANTYPE,STATIC,RESTART,load step,substep,PERTURB: the state that the modes are asked about.
+void choose_stage(Parts& parts, const Command& command) {
+  if (!parts.is_static)
+    command.fail("perturbs the state of another solution than a static one, which is not read",
+                 "solve the loads by ANTYPE,STATIC and name that");
+  const std::vector<LoadStep>& steps = parts.load_steps;
+  const long step = command.integer_or(2, 0), substep = command.integer_or(3, 0);
+  if (steps.empty()) return;  // SOLVE says so
+  if (step < 0 || step > std::ssize(steps))
+    command.fail(fmt::format("names load step {}, but {} static solutions stand before it", step, steps.size()),
+                 "name one of them, or none for the last");
+  const LoadStep& chosen = step == 0 ? steps.back() : steps[static_cast<std::size_t>(step - 1)];
+  if (substep != 0 && substep != chosen.substeps)
+    command.fail(fmt::format("asks for modes about substep {} of a load step of {} substeps, of which only the end is read",
+                             substep, chosen.substeps ? std::to_string(*chosen.substeps) : "an unknown number of"),
+                 "leave the substep blank for the end of the load step, or write the loads of that substep as a load step");
+  take_stage(parts, chosen);
+}
+
+/// ANTYPE,type,status,load step,substep,action
+void read_analysis(Parts& parts, const Command& command) {
+  if (!command.blank(0)) {  // else it stays the same
+    const std::string type = command.word(0).substr(0, 4);
+    parts.modal = type == "MODA" || type == "2";
+    parts.is_static = type == "STAT" || type == "0";
+  }
+  parts.starts_anew = command.blank(1) || !command.word(1).starts_with("REST");
+  if (parts.starts_anew) return;
+  if (!command.blank(4) && command.word(4).starts_with("PERT")) {
+    choose_stage(parts, command);
+    parts.is_static = false;
+  } else if (const long step = command.integer_or(2, 0); step > 0 && step < std::ssize(parts.load_steps)) {
+    parts.load_steps.resize(static_cast<std::size_t>(step));  // what follows takes the place of the later ones
+  }
+}
+
+/// NSUBST,number,most,least; DELTIM, AUTOTS: how many substeps a load step has, where that is sure.
+bool read_substeps(Parts& parts, const Command& command) {
+  const bool by_number = command.key == "NSUB", automatic = command.key == "AUTO" && is_on(command);
+  if (!by_number && !automatic && command.key != "DELT") return false;
+  const long number = by_number ? command.integer_or(0, 1) : 0;
+  parts.substeps.reset();
+  if (by_number && command.integer_or(1, number) == number && command.integer_or(2, number) == number) parts.substeps = number;
+  return true;
+}
+
 bool collect_load(Parts& parts, const Command& command) {
   const std::string& key = command.key;
   static const std::vector<std::string> temperatures = {"BF", "BFUN", "TUNI", "TREF", "BFE", "BFEB", "EBLD", "LDRE"};
@@ -204,11 +255,10 @@ bool read_solution(Parts& parts, const Command& command) {
     parts.large = is_on(command);
     if (parts.large) parts.large_line = command.line;
   } else if (command.key == "ANTY") {
-    const std::string type = command.word(0).substr(0, 4);
-    parts.modal = type == "MODA" || type == "2";
+    read_analysis(parts, command);
   } else if (command.key == "PERT") {
     parts.perturbed = command.word(0).starts_with("MODA");
-    parts.modal = parts.modal || parts.perturbed;
+    if (parts.perturbed) parts.modal = true, parts.is_static = false;
   } else if (command.key == "CORI" || command.key == "OMEG") {
     constexpr std::size_t softens = 3;  // field of OMEGA
     const bool gyroscopic = command.key == "CORI";
@@ -217,18 +267,20 @@ bool read_solution(Parts& parts, const Command& command) {
                    "leave it out for the modes at rest");
     return gyroscopic;
   } else {
-    return false;
+    return read_substeps(parts, command);
   }
   return true;
 }
 
 bool read_solve(Parts& parts, const Command& command) {
   if (command.word(0).starts_with("ELFO")) return false;  // forms the elements of a perturbation
-  if (!parts.modal) {
-    parts.stage = parts.loads;
-    parts.stage_is_large = parts.large;
-    return false;
+  if (parts.is_static) {
+    if (parts.starts_anew) parts.load_steps.clear();
+    parts.starts_anew = false;
+    parts.load_steps.push_back({parts.loads, parts.large, parts.substeps});
+    take_stage(parts, parts.load_steps.back());
   }
+  if (!parts.modal) return false;
   if (parts.prestressed || parts.perturbed) {
     if (!parts.stage)
       command.fail("asks for modes of the loaded structure (PSTRES), but no static solution stands before it",

@@ -87,7 +87,7 @@ void note_loads(InpParts& parts, const InpPlan& plan, const InpStage& stage) {
     if (first.emplace(card->keyword, card->line).second)
       parts.notes.push_back(
           fmt::format("*{} (line {}) is left out: no step asks for modes of the structure under it, as a static step with "
-                      "NLGEOM or one before *STEP, PERTURBATION does",
+                      "NLGEOM does, and in CalculiX one before *STEP, PERTURBATION",
                       card->keyword, card->line));
   first.clear();
   for (const InpReading& reading : plan.readings)
@@ -135,7 +135,8 @@ ImportedModel read_inp(const std::filesystem::path& path) {
   parts.scopes = plan.scopes;
   parts.notes = plan.notes;
   parts.model.source = path.string();
-  const InpStage stage = find_inp_stage(plan);
+  const InpStage stage = find_inp_stage(file, plan);
+  if (!stage.note.empty()) parts.notes.push_back(stage.note);
   if (stage.asked) refuse_other_supports_than_of_static_steps(file);
   for (const InpReading& reading : stage.cards) parts.of_stage.insert(reading.card);
   for (const auto& pass : passes()) {

@@ -47,6 +47,9 @@ class InpFile {
   [[nodiscard]] const std::vector<InpCard>& cards() const { return cards_; }
   [[nodiscard]] const std::filesystem::path& path() const { return files_.front(); }
   [[nodiscard]] const std::deque<std::filesystem::path>& files() const { return files_; }
+  /// What shows that Abaqus is meant and not CalculiX: a comment of Abaqus/CAE, or NAME on a *STEP, which CalculiX does not
+  /// know. Empty where nothing does.
+  [[nodiscard]] std::string sign_of_abaqus() const;
 
  private:
   /// @param open  files being read, the deck first
@@ -54,6 +57,7 @@ class InpFile {
 
   std::deque<std::filesystem::path> files_;  ///< the deck first; cards point to them
   std::vector<InpCard> cards_;
+  long generated_by_abaqus_ = 0;  ///< line of the comment that says so
 };
 
 }  // namespace twindeck::model_io

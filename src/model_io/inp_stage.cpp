@@ -253,9 +253,19 @@ class InpStageReader {
   std::map<long, double> before_, now_;  ///< temperatures of nodes
 };
 
+std::string note_of_rule(const std::string& sign_of_abaqus) {
+  return sign_of_abaqus.empty()
+             ? "the static loads act on the modes of *STEP, PERTURBATION as in CalculiX; in Abaqus they would act only after a "
+               "static step with NLGEOM"
+             : fmt::format(
+                   "the static loads do not act on the modes of *STEP, PERTURBATION, as in Abaqus without NLGEOM in a static "
+                   "step ({}); in CalculiX they would act",
+                   sign_of_abaqus);
+}
+
 }  // namespace
 
-InpStage find_inp_stage(const InpPlan& plan) {
+InpStage find_inp_stage(const InpFile& file, const InpPlan& plan) {
   InpStage stage;
   std::vector<InpReading> step;
   const InpCard* opened = nullptr;
@@ -281,6 +291,9 @@ InpStage find_inp_stage(const InpPlan& plan) {
     }
     if (card.keyword == "STATIC") is_static = true;
     if (card.keyword == "FREQUENCY") modal = true, perturbation = opened != nullptr && says_yes(*opened, "PERTURBATION");
+    if (card.keyword == "RESTART" && card.has("READ"))
+      card.fail("starts from the state of another run, READ, whose loads are not in the deck",
+                "write the steps of that run into the deck, or take the card out for modes of the unloaded structure");
     if (card.keyword == "INITIAL CONDITIONS") {
       stage.initial.push_back(reading);
       const std::string type = upper_case(card.get("TYPE"));
@@ -298,7 +311,10 @@ InpStage find_inp_stage(const InpPlan& plan) {
   close();
   for (const InpReading& reading : stage.cards) loaded = loaded || is_load(*reading.card) || is_nonzero_boundary(*reading.card);
   const bool any_static = !stage.cards.empty();
-  stage.asked = modal && any_static && (stage.large || perturbation) && (loaded || stressed != nullptr);
+  const std::string abaqus = file.sign_of_abaqus();
+  const bool acts = modal && any_static && (loaded || stressed != nullptr);
+  stage.asked = acts && (stage.large || (perturbation && abaqus.empty()));
+  if (acts && perturbation && !stage.large) stage.note = note_of_rule(abaqus);
   if (stressed != nullptr && !stage.asked)
     stressed->fail("gives initial stresses, but no step takes them up",
                    "write a static step with NLGEOM before the step with *FREQUENCY, or take the card out");

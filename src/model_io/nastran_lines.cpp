@@ -1,6 +1,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
+#include <string_view>
 
 #include "core/error.hpp"
 #include "io/text_lines.hpp"
@@ -68,11 +70,20 @@ std::string continuation_name(const std::string& field) {
   return upper_case(trimmed(field.substr(std::min(field.find_first_not_of("+*"), field.size()))));
 }
 
-/// "SPC = 3" as "SPC" and "3"; "SUBCASE 1" as it is, with an empty value.
+/// Case control commands of more than four letters that are looked at. Four letters of one are enough, as of every command.
+constexpr std::array<const char*, 6> case_commands = {"TITLE", "ANALYSIS", "SUBCASE", "STATSUB", "DEFORM", "TEMPERATURE"};
+
+/// "SPC = 3" as "SPC" and "3", "STAT(PRELOAD) = 1" as "STATSUB(PRELOAD)" and "1"; "SUBC 1" as "SUBCASE 1", with an empty value.
 std::pair<std::string, std::string> key_and_value(const std::string& text) {
   const auto equals = text.find('=');
-  if (equals == std::string::npos) return {upper_case(trimmed(text)), ""};
-  return {upper_case(trimmed(text.substr(0, equals))), trimmed(text.substr(equals + 1))};
+  std::string key = upper_case(trimmed(text.substr(0, equals)));
+  const std::size_t letters = std::min(key.find_first_of(" (0123456789", 1), key.size());
+  for (const std::string_view command : case_commands)
+    if (letters >= 4 && command.starts_with(key.substr(0, letters))) {
+      key = std::string(command) + key.substr(letters);
+      break;
+    }
+  return {key, equals == std::string::npos ? "" : trimmed(text.substr(equals + 1))};
 }
 
 }  // namespace
