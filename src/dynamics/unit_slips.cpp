@@ -6,11 +6,9 @@
 #include <array>
 #include <cmath>
 #include <limits>
-#include <numbers>
 #include <optional>
 #include <set>
 
-#include "core/error.hpp"
 #include "core/statistics.hpp"
 #include "dynamics/doubtful_mesh.hpp"
 
@@ -35,13 +33,6 @@ constexpr double longest_structure_m = 10000.0;  ///< one model; the longest bri
 constexpr double long_structure_m = 500.0;       ///< from here on members are looked at
 constexpr double slenderest_member = 2000.0;     ///< [-] median of element length over depth; a cable in few pieces has 1000
 constexpr Band structure_Hz{0.01, 10000.0};      ///< first mode: the longest suspension bridges have 0.03 to 0.05 Hz
-constexpr double rigid_body = 1e-5;              ///< [-] of the highest computed frequency: rounding of zero
-constexpr double stands_off = 50.0;              ///< [-] from one measured frequency to the next; bands are not that far apart
-constexpr double most_model_error = 5.0;         ///< [-] between measured and computed frequencies
-constexpr double known_factor_within = 1.15;     ///< [-] of the factor of a slip, which sits on top of a model's own error
-constexpr int fewest_ratios = 3;                 ///< two ratios agree by chance
-constexpr double gravity_m_s2 = 9.80665;
-constexpr double gravity_in_s2 = 386.0886;  ///< [in/s2]
 /// Tungsten, the densest structural material, lies below. A larger number is a weight per volume, or kilograms among tonnes.
 constexpr double densest_kg_m3 = 23000.0;
 /// Timber weighs 3.4 to 9.8 kN/m3 and has a modulus of 7 to 20 GPa; lead, which is as slow with that density, weighs more.
@@ -123,12 +114,14 @@ struct WeightUnit {
   const char *system = "", *divisor = "";  ///< its name, "" among numbers in SI units; "": a mass, not a weight
 };
 /// Among SI numbers first; then those of the systems.
-constexpr std::array<WeightUnit, 11> weight_units = {
+constexpr std::array<WeightUnit, 13> weight_units = {
     {{1.0 / gravity_m_s2, "a weight in N/m3 (divide by 9.81)"},
      {1.0 / gravity_in_s2, "a weight in lbf/in3 (is PARAM,WTMASS,.00259 missing?)"},
+     {1.0 / gravity_ft_s2, "a weight in lbf/ft3 or kip/ft3 (divide by 32.174)"},
      {1e-3 / gravity_m_s2, "a weight in N/mm3 (divide by 9810)"},
      {1e-3, "in kg where the other units ask for tonnes"},
      {27679.9, "lbf/in3", 6894.757, "lbf and in", "386.09"},
+     {16018.46, "kip/ft3", 47880.26, "kip and ft", "32.174"},
      {1e6, "kgf/cm3", 98066.5, "kgf and cm", "980.665"},
      {1e3, "tonf/m3", 9806.65, "tonf and m", "9.80665"},
      {1e3 / gravity_m_s2, "kN/m3", 1e3, "kN and m", "9.80665"},
@@ -280,73 +273,7 @@ double moving_mass(const LoadedModel& loaded) {
   return sum / 3.0;
 }
 
-/// Position of the first frequency that is no rigid body's, or the size.
-Index first_elastic(const Eigen::VectorXd& ascending_Hz) {
-  Index at = 0;
-  while (at < ascending_Hz.size() && !(ascending_Hz[at] > rigid_body * ascending_Hz[ascending_Hz.size() - 1])) ++at;
-  return at;
-}
-
-/// Measured over computed frequency of as many as both have, in the order of both; ascending.
-std::vector<double> ratios_in_order(const MeasuredFrequencies& measured, const Eigen::VectorXd& computed_Hz) {
-  const Index first = first_elastic(computed_Hz), n = std::min(measured.frequency_Hz.size(), computed_Hz.size() - first);
-  Eigen::VectorXd sorted = measured.frequency_Hz;
-  std::sort(sorted.begin(), sorted.end());
-  std::vector<double> ratios;
-  for (Index i = 0; i < n; ++i) ratios.push_back(sorted[i] / computed_Hz[first + i]);
-  std::sort(ratios.begin(), ratios.end());
-  return ratios;
-}
-
-/// Whether a parameter's bounds reach a factor of stiffness over mass.
-bool parameters_reach(const std::vector<fe::Parameter>& parameters, double stiffness_over_mass) {
-  return std::ranges::any_of(parameters, [&](const fe::Parameter& p) {
-    if (!(p.initial > 0.0) || !(p.lower > 0.0)) return false;
-    const bool of_mass =
-        p.target == fe::Target::density || p.target == fe::Target::point_mass || p.target == fe::Target::matrix_mass;
-    const double most = of_mass ? p.initial / p.lower : p.upper / p.initial;
-    const double least = of_mass ? p.initial / p.upper : p.lower / p.initial;
-    constexpr double nearly = 1.3;  // [-] of stiffness over mass: the model's own error
-    return most * nearly >= stiffness_over_mass && least <= nearly * stiffness_over_mass;
-  });
-}
-
-/// The measured frequencies on the smaller side of a gap of `stands_off`, each with the factor that brings it back.
-std::vector<std::string> outliers(const MeasuredFrequencies& measured) {
-  const Eigen::VectorXd& measured_Hz = measured.frequency_Hz;
-  std::vector<Index> order(static_cast<std::size_t>(measured_Hz.size()));
-  for (std::size_t i = 0; i < order.size(); ++i) order[i] = static_cast<Index>(i);
-  std::ranges::sort(order, [&](Index a, Index b) { return measured_Hz[a] < measured_Hz[b]; });
-  std::vector<std::string> slips;
-  for (std::size_t gap = 1; gap < order.size(); ++gap) {
-    const double below = measured_Hz[order[gap - 1]], above = measured_Hz[order[gap]];
-    if (!(above > stands_off * below)) continue;
-    const bool upper = order.size() - gap <= gap;  // the fewer are odd; of equally many the upper ones
-    const std::size_t from = upper ? gap : 0, to = upper ? order.size() : gap;
-    const double low = measured_Hz[order[upper ? 0 : gap]], high = measured_Hz[order[upper ? gap - 1 : order.size() - 1]];
-    for (std::size_t i = from; i < to; ++i) {
-      const double value = measured_Hz[order[i]], scaled = upper ? value / 1000.0 : value * 1000.0;
-      const bool fits = scaled >= low / 3.0 && scaled <= 3.0 * high;
-      slips.push_back(fmt::format("mode {} is measured at {:g} Hz, but the others lie between {:g} and {:g} Hz{}",
-                                  measured.names[static_cast<std::size_t>(order[i])], value, low, high,
-                                  fits ? fmt::format(": is it in {}, or is the decimal point lost? {:g} Hz would be among them",
-                                                     upper ? "mHz" : "kHz", scaled)
-                                       : std::string(": check its unit")));
-    }
-    return slips;
-  }
-  return slips;
-}
-
 }  // namespace
-
-double highest_of_band(Eigen::VectorXd measured_Hz) {
-  const Index n = measured_Hz.size();
-  std::sort(measured_Hz.begin(), measured_Hz.end());
-  for (Index gap = 1; gap < n; ++gap)
-    if (measured_Hz[gap] > stands_off * measured_Hz[gap - 1] && n - gap <= gap) return measured_Hz[gap - 1];
-  return n > 0 ? measured_Hz[n - 1] : 0.0;
-}
 
 std::vector<std::string> unit_slips(const fe::Model& model) {
   std::vector<std::string> slips;
@@ -375,60 +302,7 @@ std::vector<std::string> frequency_slips(const Eigen::VectorXd& computed_Hz, dou
                            : "look for a mass in tonnes, a density in t/m3, or sections in mm")};
 }
 
-std::optional<std::string> slip_of_factor(double computed_over_measured) {
-  struct Likely {
-    double factor;
-    const char* words;
-  };
-  const double thousand = std::sqrt(1000.0), gravity = std::sqrt(gravity_m_s2);
-  const std::array<Likely, 10> known = {
-      {{1.0 / gravity, "is a weight in newtons given as a mass in kilograms?"},
-       {gravity, "is a mass divided by g once too often?"},
-       {1.0 / std::sqrt(gravity_in_s2), "is a weight in lbf given as a mass (PARAM,WTMASS,.00259 missing)?"},
-       {1.0 / (thousand * gravity), "is a weight in newtons given as a mass in tonnes?"},
-       {1.0 / thousand, "is the model's stiffness in kN/m or N/mm, or its mass in grams?"},
-       {thousand, "is the model's mass in tonnes?"},
-       {1e-3, "is a modulus of the model in MPa, its mass in milligrams, or are the measured frequencies in mHz?"},
-       {1e3, "are the measured frequencies in kHz?"},
-       {1.0 / (2.0 * std::numbers::pi), "are the measured frequencies in rad/s?"},
-       {1.0 / 60.0, "are the measured frequencies in cycles per minute?"}}};
-  const Likely* nearest = nullptr;
-  double least = std::log(known_factor_within);
-  for (const Likely& likely : known)
-    if (const double off = std::abs(std::log(computed_over_measured / likely.factor)); off < least)
-      least = off, nearest = &likely;
-  return nearest == nullptr ? std::nullopt : std::optional<std::string>(nearest->words);
-}
-
-std::optional<double> one_factor(const MeasuredFrequencies& measured, const Eigen::VectorXd& computed_Hz) {
-  const std::vector<double> ratios = ratios_in_order(measured, computed_Hz);
-  if (std::ssize(ratios) < fewest_ratios || std::ssize(ratios) < measured.frequency_Hz.size()) return std::nullopt;
-  const double ratio = ratios[ratios.size() / 2];
-  if (!slip_of_factor(1.0 / ratio)) return std::nullopt;
-  for (const double each : {ratios.front(), ratios.back()})
-    if (std::abs(std::log(each / ratio)) > std::log(known_factor_within)) return std::nullopt;
-  return ratio;
-}
-
-std::vector<std::string> measured_slips(const MeasuredFrequencies& measured, const Eigen::VectorXd& computed_Hz) {
-  std::vector<std::string> slips = outliers(measured);
-  const std::vector<double> ratios = ratios_in_order(measured, computed_Hz);
-  if (!slips.empty() || ratios.empty()) return slips;
-  const double ratio = ratios[ratios.size() / 2];
-  const bool is_error = ratio < most_model_error && ratio > 1.0 / most_model_error;
-  if (is_error && !one_factor(measured, computed_Hz)) return slips;
-  Eigen::VectorXd sorted = measured.frequency_Hz;
-  std::sort(sorted.begin(), sorted.end());
-  const std::string guess = slip_of_factor(1.0 / ratio).value_or("check the units of both");
-  slips.push_back(
-      fmt::format("the measured frequencies ({:g} to {:g} Hz) are {:.3g} times the computed ones ({:.3g} to {:.3g} Hz) in "
-                  "the order of both: {}",
-                  sorted[0], sorted[sorted.size() - 1], ratio, computed_Hz[first_elastic(computed_Hz)],
-                  computed_Hz[computed_Hz.size() - 1], guess));
-  return slips;
-}
-
-void warn_of_unit_slips(Reporter& reporter, const LoadedModel& loaded, const Eigen::VectorXd& computed_Hz,
+bool warn_of_unit_slips(Reporter& reporter, const LoadedModel& loaded, const Eigen::VectorXd& computed_Hz,
                         const std::vector<MeasuredFrequencies>& measured) {
   std::vector<std::string> slips;
   if (loaded.model) {
@@ -437,38 +311,18 @@ void warn_of_unit_slips(Reporter& reporter, const LoadedModel& loaded, const Eig
   }
   for (const std::string& slip : frequency_slips(computed_Hz, moving_mass(loaded), loaded.model ? span_of(*loaded.model) : 0.0))
     slips.push_back(slip);
-  const Eigen::VectorXd compared_Hz = slips.empty() ? computed_Hz : Eigen::VectorXd();
+  const bool doubted = !slips.empty();
+  const Eigen::VectorXd compared_Hz = !doubted ? computed_Hz : Eigen::VectorXd();
   for (const MeasuredFrequencies& condition : measured)
     for (const std::string& slip : measured_slips(condition, compared_Hz)) slips.push_back(slip);
   for (const std::string& slip : slips) reporter.warn(slip);
-}
-
-void refuse_one_factor(const LoadedModel& loaded, const Eigen::VectorXd& computed_Hz,
-                       const std::vector<MeasuredFrequencies>& measured, FactorWithinBounds within_bounds) {
-  for (const MeasuredFrequencies& condition : measured) {
-    const std::optional<double> ratio = one_factor(condition, computed_Hz);
-    const bool reached = ratio && parameters_reach(loaded.system.parameters, *ratio * *ratio);
-    if (!ratio || (reached && within_bounds == FactorWithinBounds::passes)) continue;
-    throw InputError(
-        {loaded.source, 0, ""},
-        fmt::format("all {} measured frequencies are {:.3g} times the computed ones in the order of both ({:.3g} to {:.3g} Hz "
-                    "against {:.3g} Hz and on), a factor of {:.3g} in stiffness over mass{}: {}",
-                    condition.frequency_Hz.size(), *ratio, condition.frequency_Hz.minCoeff(), condition.frequency_Hz.maxCoeff(),
-                    computed_Hz[first_elastic(computed_Hz)], *ratio * *ratio,
-                    reached ? "" : " that no parameter's bounds reach",
-                    slip_of_factor(1.0 / *ratio).value_or("look for a unit")),
-        within_bounds == FactorWithinBounds::passes
-            ? "give masses in kg, densities in kg/m3, stiffness in N/m and moduli in Pa, or let the bounds of a parameter "
-              "reach it"
-            : "give masses in kg, densities in kg/m3, stiffness in N/m and moduli in Pa; a parameter that is meant to be "
-              "so far off gets that value in the model and as its `initial`");
-  }
+  return doubted;
 }
 
 void judge_units(Reporter& reporter, const LoadedModel& loaded, const Eigen::VectorXd& computed_Hz,
                  const std::vector<MeasuredFrequencies>& measured, FactorWithinBounds within_bounds) {
-  warn_of_unit_slips(reporter, loaded, computed_Hz, measured);
-  refuse_one_factor(loaded, computed_Hz, measured, within_bounds);
+  const bool doubted = warn_of_unit_slips(reporter, loaded, computed_Hz, measured);
+  refuse_one_factor(loaded, computed_Hz, measured, within_bounds, doubted);
 }
 
 }  // namespace twindeck::dynamics

@@ -13,7 +13,7 @@ namespace {
 using namespace twindeck;
 
 Status run(const steps::SensitivityConfig& config, const dynamics::ReadModel& read,
-           const std::vector<dynamics::MeasuredFrequencies>& measured, runner::StepContext& context) {
+           const std::optional<matching::Measured>& measured, runner::StepContext& context) {
   // 1. The refined model, with the prestress of its own parameter values, frozen.
   const dynamics::LoadedModel loaded = dynamics::solvable(read);
   if (!loaded.state.status.converged) return loaded.state.status;
@@ -23,7 +23,12 @@ Status run(const steps::SensitivityConfig& config, const dynamics::ReadModel& re
   const sensitivity::Sensitivities found = sensitivity::frequency_sensitivities(
       loaded.system, loaded.theta, options, [&](int done, int of) { context.progress("differences", done, of); });
   if (found.frequency_Hz.size() == 0) return found.status;
-  dynamics::judge_units(context, loaded, found.frequency_Hz, measured);
+  if (measured) {
+    const auto modes = dynamics::available_modes(loaded.system, loaded.theta, options.n_modes);
+    dynamics::judge_units(context, loaded, modes.frequency_Hz, steps::frequencies_of(measured, {}, loaded, modes));
+  } else {
+    dynamics::warn_of_unit_slips(context, loaded, found.frequency_Hz, {});
+  }
   sensitivity::refuse_rigid_bodies(found, loaded.source);
   if (!found.richardson.allFinite() || !found.forward.allFinite())
     return {false, found.status.converged ? "a difference of frequencies is no number" : found.status.message};
@@ -48,8 +53,8 @@ runner::Computation read(steps::SensitivityConfig& config, runner::StepContext& 
     config.compared_modes = steps::paired_modes(context.input(context.results / "s4_refinement" / "pairs.csv"));
   steps::check_sensitivity_config(config, model.parameters(), model.source);
   // Measured modes are not needed here. If they are given, they can show a slip of units in the model.
-  std::vector<dynamics::MeasuredFrequencies> measured;
-  if (context.features || context.modes) measured = steps::frequencies_of(steps::find_measured(context, ""));
+  std::optional<matching::Measured> measured;
+  if (context.features || context.modes) measured = steps::find_measured(context, "");
   return [&config, &context, model, measured] { return run(config, model, measured, context); };
 }
 

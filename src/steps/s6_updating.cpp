@@ -21,7 +21,7 @@ Status run(const steps::UpdatingConfig& asked, const steps::UpdatingInputs& read
   // 2. Pairs of measured and computed modes.
   const auto modes_before = dynamics::available_modes(before.system, before.theta, static_cast<int>(config.n_modes));
   if (!modes_before.status.converged) return modes_before.status;
-  dynamics::judge_units(context, before, modes_before.frequency_Hz, steps::frequencies_of(measured));
+  judge_units(context, before, modes_before.frequency_Hz, steps::frequencies_of(measured, config, before, modes_before));
   const auto pairing = updating::pair_for_updating(context, config, before, modes_before, measured);
   const auto rows = updating::weighed_rows(config, measured, pairing, before, modes_before);
   if (!rows.given())

@@ -29,6 +29,7 @@
 #include "matching/shapes_at_sensors.hpp"
 #include "runner/shipped_files.hpp"
 #include "runner/study.hpp"
+#include "steps/diagnosis/compared_frequencies.hpp"
 #include "steps/diagnosis/outputs.hpp"
 #include "steps/measured/measured_input.hpp"
 #include "steps/shared/model_source.hpp"
@@ -64,19 +65,6 @@ struct DiagnosisInputs {
   /// The model that the causes are put into: `model`, with swinging stays as cables.
   std::shared_ptr<const diagnosis::DiagnosedModel> extended;
 };
-
-std::vector<dynamics::MeasuredFrequencies> frequencies_of(const diagnosis::FeatureSet& features) {
-  std::vector<dynamics::MeasuredFrequencies> conditions(features.conditions.size());
-  for (const diagnosis::Row& row : features.rows) {
-    if (row.type != diagnosis::RowType::frequency) continue;
-    dynamics::MeasuredFrequencies& found = conditions[static_cast<std::size_t>(row.condition)];
-    found.names.push_back(fmt::format("{} of {}", row.mode, features.condition_of(row).name));
-    found.frequency_Hz.conservativeResize(found.frequency_Hz.size() + 1);
-    found.frequency_Hz.tail<1>()[0] = row.value;
-  }
-  std::erase_if(conditions, [](const dynamics::MeasuredFrequencies& found) { return found.names.empty(); });
-  return conditions;
-}
 
 constexpr double kAlike = 0.6;  ///< [-] default MAC if least_mac is 0: less alike shapes are different modes
 
@@ -282,7 +270,8 @@ DiagnosisInputs prepare_diagnosis(const DiagnosisConfig& config, const Diagnosis
   diagnosis::FeatureMap as_it_stands(*inputs.reduced, inputs.features, config.scatter);
   as_it_stands.bind_modes(bound_modes(config, inputs));
   inputs.account = diagnosis::account_of(files.claims, inputs.features, files.channels, inputs.places, &as_it_stands);
-  judge_units(context, loaded, inputs.reduced->frequency_Hz, frequencies_of(inputs.features),
+  judge_units(context, loaded, inputs.reduced->frequency_Hz,
+              frequencies_of(inputs.features, inputs.reduced.get(), bound_modes(config, inputs)),
               dynamics::FactorWithinBounds::is_refused);
   const double least_mac = config.least_mac > 0.0 || !inputs.bar_stays ? config.least_mac : kAlike;
   if (const auto unpaired = diagnosis::leave_out_unpaired(least_mac, config.scatter, *inputs.reduced, inputs.features))

@@ -6,6 +6,7 @@
 #include "io/csv.hpp"
 #include "io/spreadsheet.hpp"
 #include "matching/mode_name.hpp"
+#include "matching/shapes_at_sensors.hpp"
 #include "model_io/modes_io.hpp"
 #include "runner/study.hpp"
 
@@ -125,9 +126,41 @@ std::optional<matching::Measured> find_measured(runner::StepContext& context, co
   return std::nullopt;
 }
 
-std::vector<dynamics::MeasuredFrequencies> frequencies_of(const std::optional<matching::Measured>& measured) {
+Eigen::MatrixXd mac_for_units(const Eigen::MatrixXcd& phi_n, const Eigen::MatrixXcd& phi_x) {
+  constexpr Eigen::Index fewest_channels = 3;
+  std::vector<Eigen::Index> known, moving;
+  for (Eigen::Index i = 0; i < phi_x.cols(); ++i)
+    if ((phi_x.col(i).array() == phi_x.col(i).array()).count() >= fewest_channels) known.push_back(i);
+  for (Eigen::Index i = 0; i < phi_n.cols(); ++i)
+    if (phi_n.col(i).norm() > 0.0) moving.push_back(i);
+  Eigen::MatrixXd mac = Eigen::MatrixXd::Constant(phi_n.cols(), phi_x.cols(), matching::kUnknown);
+  if (known.empty() || moving.empty()) return mac;
+  matching::PairingOptions single;
+  single.cluster_gap = -1.0;  // no mode counts as close to another
+  mac(moving, known) = matching::likeness_of(Eigen::VectorXd::Ones(std::ssize(known)), phi_x(Eigen::all, known),
+                                             Eigen::VectorXd::Ones(std::ssize(moving)), phi_n(Eigen::all, moving), single)
+                           .value.transpose();
+  return mac;
+}
+
+std::vector<dynamics::MeasuredFrequencies> frequencies_of(const std::optional<matching::Measured>& measured,
+                                                          const matching::PairingSettings& settings,
+                                                          const dynamics::LoadedModel& loaded,
+                                                          const dynamics::EigenModes& modes) {
   if (!measured) return {};
-  return {{measured->modes.names, measured->modes.frequency_Hz}};
+  dynamics::MeasuredFrequencies found{measured->modes.names, measured->modes.frequency_Hz};
+  const Eigen::Index n = modes.frequency_Hz.size();
+  if (measured->modes.has_shapes()) {
+    Eigen::MatrixXcd phi_n = matching::shapes_at_sensors(*measured, loaded, modes, settings.sensor_tolerance_m);
+    for (Eigen::Index i = 0; i < n; ++i)  // what no sensor sees is rounding
+      if (phi_n.col(i).norm() < unseen * modes.shapes.col(i).cwiseAbs().maxCoeff()) phi_n.col(i).setZero();
+    found.mac = mac_for_units(phi_n, measured->modes.shapes);
+  } else if (!settings.pairs.empty()) {
+    found.mac = Eigen::MatrixXd::Zero(n, measured->modes.size());
+    for (const matching::ModePair& pair : matching::pair_as_published(*measured, n, settings.pairs, {"", 0, "pairs"}).pairs)
+      found.mac(pair.numerical, pair.experimental) = 1.0;
+  }
+  return {found};
 }
 
 }  // namespace twindeck::steps

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "dynamics/eigenmodes.hpp"
 #include "dynamics/unit_slips.hpp"
 #include "io/config.hpp"
 #include "matching/measured.hpp"
@@ -38,7 +39,20 @@ void add_pairing_keys(io::FieldTable& table, matching::PairingSettings& settings
 /// @param condition  of the step's configuration; --condition takes precedence
 [[nodiscard]] std::optional<matching::Measured> find_measured(runner::StepContext& context, const std::string& condition);
 
-/// Input of warn_of_unit_slips for a step that compares with one condition.
-[[nodiscard]] std::vector<dynamics::MeasuredFrequencies> frequencies_of(const std::optional<matching::Measured>& measured);
+inline constexpr double unseen =
+    1e-9;  ///< [-] of a shape's largest value: a mode without motion at the sensors is rounding there
+
+/// [-] (n_N × n_X) MAC of computed and measured shapes at the sensors, for the checks of units; NaN of a mode that was measured
+/// at fewer than three channels, where any two shapes may agree.
+/// @param phi_n (n_sensors × n_N), phi_x (n_sensors × n_X) with NaN where a mode was not measured
+[[nodiscard]] Eigen::MatrixXd mac_for_units(const Eigen::MatrixXcd& phi_n, const Eigen::MatrixXcd& phi_x);
+
+/// Input of warn_of_unit_slips for a step that compares with one condition: by shape or by the pairs of the configuration,
+/// where there are such.
+/// @throws InputError  as pair_as_published and shapes_at_sensors
+[[nodiscard]] std::vector<dynamics::MeasuredFrequencies> frequencies_of(const std::optional<matching::Measured>& measured,
+                                                                        const matching::PairingSettings& settings,
+                                                                        const dynamics::LoadedModel& loaded,
+                                                                        const dynamics::EigenModes& modes);
 
 }  // namespace twindeck::steps

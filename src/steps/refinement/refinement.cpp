@@ -63,7 +63,8 @@ matching::PairingAccount compare_with_measurement(runner::StepContext& context, 
                                                   const matching::SolvedModel& initial, const matching::SolvedModel& refined) {
   if (!measured) context.say("no measured modes: give --features DIR or --modes DIR to compare with");
   const matching::Measured some = measured.value_or(matching::Measured{});
-  dynamics::warn_of_unit_slips(context, refined.loaded, refined.modes.frequency_Hz, frequencies_of(measured));
+  dynamics::warn_of_unit_slips(context, refined.loaded, refined.modes.frequency_Hz,
+                               frequencies_of(measured, config, refined.loaded, refined.modes));
   matching::Pairing after, before;
   matching::PairingAccount account;
   if (measured) {
