@@ -54,8 +54,11 @@ std::string problem_of_seed(const std::string& text) {
 }
 
 void check_folder(const char* option, const std::optional<fs::path>& folder) {
-  if (folder && !fs::is_directory(*folder))
-    throw InputError({"command line", 0, option}, "'" + folder->string() + "' is no folder", "name a folder that exists");
+  if (!folder || fs::is_directory(*folder)) return;
+  const std::string wanted = std::string(option) == "--model" ? "a model folder or a deck" : "a folder";
+  throw InputError({"command line", 0, option},
+                   "'" + folder->string() + (fs::exists(*folder) ? "' is not " + wanted : "' does not exist"),
+                   "name " + wanted + " that exists");
 }
 
 /// Step 3 takes a universal file with modes and makes the folder of it that the others take.

@@ -63,7 +63,9 @@ class Refusals(unittest.TestCase):
 
     def test_folders_that_are_not_there(self):
         for option in ("--study", "--model", "--campaign", "--modes", "--features"):
-            self.assertIn("'/nonexistent/y' is no folder", self.refused("--out", NEVER, option, "/nonexistent/y"))
+            self.assertIn("'/nonexistent/y' does not exist", self.refused("--out", NEVER, option, "/nonexistent/y"))
+        self.assertIn("name a model folder or a deck that exists", self.refused("--out", NEVER, "--model", "/nonexistent/bridge.bdf"))
+        self.assertIn(f"'{__file__}' is not a folder", self.refused("--out", NEVER, "--features", __file__))
 
     def test_unknown_key_of_set_names_the_nearest(self):
         key = max(described_keys(), key=len)
