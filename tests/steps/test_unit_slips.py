@@ -92,6 +92,9 @@ class GirderInSpace(unittest.TestCase):
         for name, modes in (("three", (1, 2, 3)), ("two", (1, 2))):
             cls.write_features(cls.folder / name, modes, shapes=True)
         cls.write_features(cls.folder / "frequencies", (1, 2, 3), shapes=False)
+        shutil.copytree(cls.folder / "three", cls.folder / "elsewhere")
+        channels = cls.folder / "elsewhere/channels.csv"
+        channels.write_text(channels.read_text().replace(",0,0,0,0,1,", ",9,0,0,0,1,"))
 
     @classmethod
     def write_model(cls, folder, factor):
@@ -142,6 +145,11 @@ class GirderInSpace(unittest.TestCase):
         for done in self.answers("right", "frequencies"):
             self.assertEqual(done.returncode, 0, done.stderr)
             self.assertIn("Or the measured modes are others of the computed ones", done.stdout + done.stderr)
+
+    def test_step_5_compares_frequencies_where_channels_are_not_on_the_model(self):
+        done = next(self.answers("right", "elsewhere"))
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertIn("Or the measured modes are others of the computed ones", done.stdout + done.stderr)
 
     def test_weights_are_named_by_the_modes_with_the_measured_shapes(self):
         for features, how_many in (("three", "all 3"), ("two", "all 2")):

@@ -151,10 +151,14 @@ std::vector<dynamics::MeasuredFrequencies> frequencies_of(const std::optional<ma
   dynamics::MeasuredFrequencies found{measured->modes.names, measured->modes.frequency_Hz};
   const Eigen::Index n = modes.frequency_Hz.size();
   if (measured->modes.has_shapes()) {
-    Eigen::MatrixXcd phi_n = matching::shapes_at_sensors(*measured, loaded, modes, settings.sensor_tolerance_m);
-    for (Eigen::Index i = 0; i < n; ++i)  // what no sensor sees is rounding
-      if (phi_n.col(i).norm() < unseen * modes.shapes.col(i).cwiseAbs().maxCoeff()) phi_n.col(i).setZero();
-    found.mac = mac_for_units(phi_n, measured->modes.shapes);
+    try {
+      Eigen::MatrixXcd phi_n = matching::shapes_at_sensors(*measured, loaded, modes, settings.sensor_tolerance_m);
+      for (Eigen::Index i = 0; i < n; ++i)  // what no sensor sees is rounding
+        if (phi_n.col(i).norm() < unseen * modes.shapes.col(i).cwiseAbs().maxCoeff()) phi_n.col(i).setZero();
+      found.mac = mac_for_units(phi_n, measured->modes.shapes);
+    } catch (const InputError&) {  // a channel that cannot be placed is refused where modes are paired by it, not here
+      return {found};
+    }
   } else if (!settings.pairs.empty()) {
     found.mac = Eigen::MatrixXd::Zero(n, measured->modes.size());
     for (const matching::ModePair& pair : matching::pair_as_published(*measured, n, settings.pairs, {"", 0, "pairs"}).pairs)
