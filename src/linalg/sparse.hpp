@@ -8,7 +8,10 @@ namespace twindeck::linalg {
 /// says "lower triangle".
 using SparseMatrix = Eigen::SparseMatrix<double, Eigen::ColMajor, int>;
 
-/// A X of a symmetric matrix.  @param lower  lower triangle of A (n × n) @param x (n × m) @return (n × m)
+/// A X (n × m), four columns at a time; Eigen's own product reads A anew for each column. @param x (n × m)
+[[nodiscard]] Eigen::MatrixXd product(const SparseMatrix& a, const Eigen::Ref<const Eigen::MatrixXd>& x);
+
+/// The same of a symmetric matrix.  @param lower  lower triangle of A (n × n)
 [[nodiscard]] Eigen::MatrixXd symmetric_product(const SparseMatrix& lower, const Eigen::Ref<const Eigen::MatrixXd>& x);
 
 /// The matrix without stored zeros, for repeated products. Stiffness and mass share one pattern, where most entries of the mass

@@ -4,6 +4,7 @@
 
 #include "core/error.hpp"
 #include "linalg/dense.hpp"
+#include "linalg/sparse.hpp"
 
 namespace twindeck::diagnosis {
 
@@ -20,7 +21,7 @@ ReducedMatrix::ReducedMatrix(CompactMatrix s, std::shared_ptr<const ReducedBasis
     : basis_(std::move(basis)), s_(std::move(s)), for_all_(for_all), known_(std::make_shared<Known>()) {
   local_ = std::ssize(s_.dofs()) <= basis_->common();
   MatrixXd shared = basis_->common_rows()(Eigen::all, s_.dofs());
-  const MatrixXd image = s_.block() * shared.transpose();
+  const MatrixXd image = linalg::product(s_.block(), shared.transpose());
   common_ = linalg::product(shared, image);
   common_.triangularView<Eigen::StrictlyLower>() = common_.transpose();
   if (local_) common_at_dofs_ = std::move(shared);
@@ -46,7 +47,7 @@ void ReducedMatrix::follow_basis() {
     MatrixXd here(common_here.cols(), columns_to(end));
     for (std::size_t g = begin; g < end; ++g)
       here.middleCols(groups[g].first - groups[begin].first, groups[g].count) = at_dofs(static_cast<int>(g));
-    const MatrixXd image = s_.block() * here;
+    const MatrixXd image = linalg::product(s_.block(), here);
     const MatrixXd shared = linalg::product(common_here, image);
     for (std::size_t g = begin; g < end; ++g) {
       const Index at = groups[g].first - groups[begin].first, count = groups[g].count;

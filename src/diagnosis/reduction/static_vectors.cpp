@@ -12,6 +12,7 @@
 #include "core/parallel.hpp"
 #include "dynamics/eigenmodes.hpp"
 #include "linalg/dense.hpp"
+#include "linalg/sparse.hpp"
 
 namespace twindeck::diagnosis {
 
@@ -30,7 +31,8 @@ class CommonBasis {
   /// @param turn  in: factors that made the block; out: factors that make the result. May be null
   [[nodiscard]] MatrixXd orthonormal(const MatrixXd& block, MatrixXd* turn = nullptr) const {
     constexpr double tolerance = 1e-6;
-    const Eigen::VectorXd before = block.cwiseProduct(stiffness_ * block).colwise().sum().cwiseMax(0.0).cwiseSqrt();
+    const Eigen::VectorXd before =
+        block.cwiseProduct(linalg::product(stiffness_, block)).colwise().sum().cwiseMax(0.0).cwiseSqrt();
     const MatrixXd rest = beyond(block);
     MatrixXd kept(block.rows(), block.cols()), images(block.rows(), block.cols());
     Index size = 0;
@@ -60,7 +62,7 @@ class CommonBasis {
     vectors_.conservativeResize(Eigen::NoChange, size + further.cols());
     images_.conservativeResize(Eigen::NoChange, size + further.cols());
     vectors_.rightCols(further.cols()) = further;
-    images_.rightCols(further.cols()) = stiffness_ * further;
+    images_.rightCols(further.cols()) = linalg::product(stiffness_, further);
   }
   /// Vectors and their loads: K vectors = loads.
   struct Held {
@@ -69,8 +71,7 @@ class CommonBasis {
   };
   /// The strongest directions of a block beyond the basis, by energy in K: at most `count`, and none below `least`.
   [[nodiscard]] Held strongest(Held block, int count, double least = 0.0) const {
-    block.vectors = beyond(std::move(block.vectors));
-    block.loads = stiffness_ * block.vectors;
+    block.vectors = beyond(std::move(block.vectors), &block.loads);
     if (block.vectors.cols() <= count) return block;
     if (count < 1) return {block.vectors.leftCols(0), block.loads.leftCols(0)};
     const MatrixXd gram = linalg::product(block.vectors, block.loads, true);
@@ -84,10 +85,13 @@ class CommonBasis {
  private:
   /// Removes the basis from a block. A second pass is made only if some column loses much of its length (Daniel et al. 1976),
   /// because each pass reads the whole basis twice.
-  [[nodiscard]] MatrixXd beyond(MatrixXd block) const {
+  /// @param loads  in and out: K block. May be null
+  [[nodiscard]] MatrixXd beyond(MatrixXd block, MatrixXd* loads = nullptr) const {
     const Eigen::VectorXd before = block.colwise().norm();
     for (int pass = 0; pass < 2; ++pass) {
-      linalg::subtract_product(vectors_, linalg::product(images_, block, true), block);
+      const MatrixXd part = linalg::product(images_, block, true);
+      linalg::subtract_product(vectors_, part, block);
+      if (loads != nullptr) linalg::subtract_product(images_, part, *loads);
       if ((block.colwise().norm().transpose().array() >= std::numbers::sqrt2 / 2.0 * before.array()).all()) break;
     }
     return block;

@@ -39,5 +39,17 @@ TEST(WithoutZeros, KeepsWhatCounts) {
   EXPECT_EQ(MatrixXd(kept), MatrixXd(a));
 }
 
+// Oracle: Eigen's product, to the last bit: both add column by column. Nothing to multiply gives zeros.
+TEST(SparseProduct, OfManyColumnsIsThatOfEach) {
+  SparseMatrix a(3, 4);
+  for (const auto& [i, j, value] : {std::tuple{0, 1, 0.1}, {2, 1, -3.0}, {1, 0, 1.0 / 3.0}, {2, 3, 7.0}, {0, 3, 1e-9}})
+    a.insert(i, j) = value;
+  for (const int columns : {0, 1, 3, 4, 9}) {
+    const MatrixXd x = MatrixXd::Random(4, columns);
+    EXPECT_EQ(product(a, x), MatrixXd(a * x)) << columns;
+  }
+  EXPECT_EQ(product(SparseMatrix(3, 0), MatrixXd(0, 2)), MatrixXd(MatrixXd::Zero(3, 2)));
+}
+
 }  // namespace
 }  // namespace twindeck::linalg
