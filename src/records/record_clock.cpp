@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <iterator>
 #include <limits>
 
 namespace twindeck::records {
@@ -11,15 +12,17 @@ using Eigen::Index;
 
 namespace {
 
-constexpr double kNormal = 1.4826;      ///< standard deviation of a normal distribution over its median absolute deviation
-constexpr double kAlone = 0.6;          ///< [samples] least gap between unshared stamps; rounding is less
-constexpr double kShared = 1.5;         ///< [samples] least gap between shared stamps, where a row's position is uncertain
-constexpr double kNoise = 20.0;         ///< robust deviations of the envelope that a gap must exceed
-constexpr double kRoundTo = 0.3;        ///< [deviations] largest change of a rate that makes it a round number
-constexpr double kRowsOfALag = 50.0;    ///< least rows between two shared stamps for a slope, certain to 2 %
-constexpr double kEvenSlopes = 0.2;     ///< [-] quartile range of slopes over their median; below it most slopes contain no gap
-constexpr std::size_t kWidest = 64;     ///< largest number of stamps that the envelope looks ahead and back
-constexpr std::size_t kStretch = 32;    ///< stamps of a stretch; gaps in half of them mean another rate
+constexpr double kNormal = 1.4826;    ///< standard deviation of a normal distribution over its median absolute deviation
+constexpr double kAlone = 0.6;        ///< [samples] least gap between unshared stamps; rounding is less
+constexpr double kShared = 1.5;       ///< [packets] least gap between shared stamps, where a row's position is uncertain
+constexpr double kNoise = 20.0;       ///< robust deviations of the envelope that a gap must exceed
+constexpr double kRoundTo = 0.3;      ///< [deviations] largest change of a rate that makes it a round number
+constexpr double kRowsOfALag = 50.0;  ///< least packets between two shared stamps for a slope, certain to 2 %
+constexpr double kEvenSlopes = 0.2;   ///< [-] quartile range of slopes over their median; below it most slopes contain no gap
+constexpr std::size_t kWidest = 64;   ///< largest number of stamps that the envelope looks ahead and back
+constexpr std::size_t kStretch = 32;  ///< stamps of a stretch; gaps in half of them mean another rate
+constexpr double kEven = 1.0;         ///< [samples] most scatter of even stamps about a line
+constexpr double kNone = std::numeric_limits<double>::infinity();
 constexpr double kSharesOfADay = 0.02;  ///< of a day: a step back from its last to its first 2 % is midnight
 
 double quantile(std::vector<double> values, double share) {
@@ -39,13 +42,31 @@ double robust_deviation(std::vector<double> values) {
 struct Search {
   std::vector<double> row, time;  ///< of each stamp: first row, and time after the first stamp's
   bool shared = false;
-  double step = 0.0;           ///< of a sample
+  double packet = 1.0;  ///< rows that arrive together, several times under one stamp; 1 if the rows of a stamp vary by one
+  double step = 0.0;    ///< of a sample
   std::vector<Index> missing;  ///< m of each stamp
   [[nodiscard]] std::size_t size() const { return row.size(); }
   /// The first stamp in use. If rows share stamps, the first stamp is skipped: it may have begun before the record.
   [[nodiscard]] std::size_t begin() const { return shared && size() > 2 ? 1 : 0; }
   [[nodiscard]] double place(std::size_t k) const { return row[k] + static_cast<double>(missing[k]); }
 };
+
+/// Rows that arrive together, if stamps are coarser than their packets (packets of 25, whole seconds): then each stamp has a
+/// multiple of them, not always the same one. The longest such divisor of the usual number of rows.
+double rows_of_a_packet(const Search& s) {
+  constexpr std::size_t fewest = 3;  // stamps with another number of rows; single ones are gaps
+  constexpr double most = 0.9;       // of these are multiples of a packet, as its loss leaves one
+  std::vector<double> rows, others;
+  for (std::size_t k = s.begin(); k + 1 < s.size(); ++k) rows.push_back(s.row[k + 1] - s.row[k]);
+  const double usual = quantile(rows, 0.5);
+  std::ranges::copy_if(rows, std::back_inserter(others), [&](double count) { return count != usual; });
+  for (double packet = usual; others.size() >= fewest && packet > 1.0; --packet) {
+    if (std::fmod(usual, packet) != 0.0) continue;
+    const auto whole = std::ranges::count_if(others, [&](double count) { return std::fmod(count, packet) == 0.0; });
+    if (static_cast<double>(whole) >= most * static_cast<double>(others.size())) return packet;
+  }
+  return 1.0;
+}
 
 /// First estimate of the step: slopes between stamps so far apart that most of them agree. The mean of the slopes near the
 /// median keeps the digits.
@@ -57,7 +78,7 @@ double first_step(const Search& s) {
     for (std::size_t k = begin; k + lag < n; ++k) slopes.push_back((s.time[k + lag] - s.time[k]) / (s.row[k + lag] - s.row[k]));
     const double rows = (s.row[n - 1] - s.row[0]) / static_cast<double>(n - 1) * static_cast<double>(lag);
     const double middle = quantile(slopes, 0.5);
-    if (middle <= 0.0 || (s.shared && rows < kRowsOfALag && 2 * lag <= (n - begin) / 3)) continue;
+    if (middle <= 0.0 || (s.shared && rows < kRowsOfALag * s.packet && 2 * lag <= (n - begin) / 3)) continue;
     const double spread = (quantile(slopes, 0.75) - quantile(slopes, 0.25)) / middle;
     if (spread >= least) continue;
     least = spread;
@@ -92,9 +113,9 @@ struct Envelope {
   double least = 0.0, noise = 0.0;
 };
 
-Envelope envelope_of(const std::vector<double>& residual, double step, bool shared) {
+Envelope envelope_of(const std::vector<double>& residual, const Search& s) {
   Envelope envelope;
-  const double base = (shared ? kShared : kAlone) * step;
+  const double step = s.step, base = (s.shared ? kShared * s.packet : kAlone) * step;
   for (;; envelope.width *= 2) {
     std::vector<double> change, folded;
     double last = 0.0;
@@ -102,7 +123,8 @@ Envelope envelope_of(const std::vector<double>& residual, double step, bool shar
       const auto begin = residual.begin() + static_cast<long>(k);
       const double low = *std::min_element(begin, begin + static_cast<long>(envelope.width));
       if (k > 0) change.push_back(low - last);
-      if (k > 0) folded.push_back(std::remainder(low - last, step));  // the remainder hides gaps, however many there are
+      if (k > 0)
+        folded.push_back(std::remainder(low - last, s.packet * step));  // the remainder hides gaps, however many there are
       last = low;
     }
     envelope.noise = robust_deviation(std::move(folded)) / std::sqrt(2.0);
@@ -125,7 +147,7 @@ bool find_gaps(Search& s, std::vector<ClockGap>& gaps, Index& changes_rate) {
   const std::size_t n = s.size();
   std::vector<double> residual(n), level(n);
   for (std::size_t k = 0; k < n; ++k) residual[k] = s.time[k] - s.step * s.row[k];
-  const Envelope envelope = envelope_of(residual, s.step, s.shared);
+  const Envelope envelope = envelope_of(residual, s);
   const std::vector<double> ahead = lowest_ahead(residual, envelope.width);
   std::vector<Index> missing(n, 0);
   std::vector<std::size_t> at;
@@ -231,15 +253,15 @@ Line robust_line(const Search& s) {
   }
   line.deviation = n - begin > 2 ? slope_deviation(s, weight, residual, middle) : 0.0;
   const double span = s.place(n - 1) - s.place(begin);
-  if (s.shared) line.deviation = std::max(line.deviation, line.slope / span * (n < 5 ? 1.0 : 1.0 / std::sqrt(12.0)));
+  if (s.shared) line.deviation = std::max(line.deviation, line.slope * s.packet / span * (n < 5 ? 1.0 : 1.0 / std::sqrt(12.0)));
   return line;
 }
 
-/// Whether a part of the record runs at another rate than the first part: its slope differs by two per cent, by two samples,
-/// and by more than its scatter.
+/// Whether a part of the record runs at another rate than the first part: its slope differs by two per cent, by two samples or
+/// packets, and by more than its scatter.
 bool has_other_rate(const Search& s) {
-  constexpr std::size_t parts = 8, fewest = 8;  // stamps of a part
-  constexpr double least = 0.02, samples = 2.0;
+  constexpr std::size_t parts = 8, fewest = 8;   // stamps of a part
+  constexpr double least = 0.02, packets = 4.0;  // of each slope, half the part long, one at either end
   double first = 0.0;
   for (std::size_t p = 0; p < parts && s.size() >= parts * fewest; ++p) {
     const std::size_t from = std::max(s.begin(), p * s.size() / parts), to = (p + 1) * s.size() / parts;
@@ -251,7 +273,8 @@ bool has_other_rate(const Search& s) {
     for (std::size_t k = from; k < to; ++k) residual.push_back(s.time[k] - slope * s.place(k));
     const double rows = s.place(to - 1) - s.place(from), scatter = robust_deviation(std::move(residual));
     if (p == 0) first = slope;
-    if (std::abs(slope - first) > least * s.step && std::abs(slope - first) * rows > samples * s.step + kNoise * scatter)
+    if (std::abs(slope - first) > least * s.step &&
+        std::abs(slope - first) * rows > packets * s.packet * s.step + kNoise * scatter)
       return true;
   }
   return false;
@@ -320,13 +343,16 @@ void StampedRows::add(double stamp) {
   stamp += midnight_;
   if (!stamps_.empty()) {
     for (const double day : {86400.0, 86400e3, 86400e6}) {
-      const double end = midnight_ + day;
-      if (last_ <= end && last_ > end - kSharesOfADay * day && stamp >= midnight_ && stamp < midnight_ + kSharesOfADay * day &&
-          stamps_.front().time >= 0.0) {
-        midnight_ += day;
-        stamp += day;
-        break;
-      }
+      const bool dated = day == 86400.0 && last_ > 1e8 && last_ < 1e11;  // [s] since 1970
+      const double days = dated ? std::ceil((last_ - midnight_) / day) - 1.0 : 0.0, begin = midnight_ + days * day,
+                   near = kSharesOfADay * day;
+      const bool passed = last_ <= begin + day && last_ > begin + day - near && stamp >= begin && stamp < begin + near &&
+                          stamps_.front().time >= 0.0;
+      const bool date_follows = midnight_ >= day && stamp - day >= last_ && stamp - day < last_ + near;  // some rows late
+      if (!passed && !date_follows) continue;
+      midnight_ += passed ? day : -day;
+      stamp += passed ? day : -day;
+      break;
     }
     counts_ = counts_ && std::abs(stamp - last_ - 1.0) <= std::min(1e-3, 2e-7 * std::abs(stamp));  // of single precision
     if (stamp < last_) ++falls_;
@@ -341,13 +367,41 @@ bool StampedRows::mostly_rises() const {
   return row_ > without_ && without_ <= row_ / 2 && one_in * falls_ <= row_;
 }
 
-bool StampedRows::runs_like_time(bool evenly) const {
-  constexpr double even = 0.05;  // [-] scatter about the line over the length of the line
-  if (falls_ > 0 || without_ > 0 || counts_ || stamps_.size() < 3) return false;
+std::optional<double> StampedRows::samples_about_a_line(Index most_set, bool of_one_rate) const {
+  constexpr Index fewest = 16;  // rows: no vibration rises so many times in a row
+  constexpr Index one_in = 50;  // rows per row without a stamp
+  if (counts_ || stamps_.size() < 3 || without_ * one_in > row_) return {};
   const RecordClock found = clock(1.0);
-  if (found.rate_Hz <= 0.0 || found.changes_rate >= 0) return false;
-  const double length = stamps_.back().time - stamps_.front().time, rows = static_cast<double>(row_);
-  return found.scatter_s <= (evenly ? 1.0 / rows : even) * length;
+  if (found.rate_Hz <= 0.0) return {};
+  const Index again = std::ranges::count_if(found.gaps, [](const ClockGap& gap) { return gap.samples < 0; });
+  if (found.changes_rate < 0) return again > most_set ? std::nullopt : std::optional(found.scatter_s * found.rate_Hz);
+  if (of_one_rate || std::min(found.changes_rate, row_ - found.changes_rate) < fewest) return {};
+  std::array<StampedRows, 2> parts;
+  for (std::size_t k = 0; k < stamps_.size(); ++k) {
+    const Index end = k + 1 < stamps_.size() ? stamps_[k + 1].row : row_;
+    for (Index row = stamps_[k].row; row < end; ++row) parts[row < found.changes_rate ? 0 : 1].add(stamps_[k].time);
+  }
+  const double most = std::max(parts[0].samples_about_a_line(most_set, true).value_or(kNone),
+                               parts[1].samples_about_a_line(most_set, true).value_or(kNone));
+  return most <= kEven ? std::optional(most) : std::nullopt;
+}
+
+bool StampedRows::runs_like_time(Straight straight) const {
+  constexpr double roughly = 0.05;    // [-] scatter about the line over the rows
+  constexpr std::size_t fewest = 16;  // stamps in a column that is named otherwise
+  constexpr Index a_start = 500;      // least rows, on average, between two starts of a clock: angles start anew sooner
+  const auto off = samples_about_a_line(straight == Straight::named         ? row_
+                                        : straight == Straight::to_a_sample ? 1
+                                                                            : std::max<Index>(1, row_ / a_start));
+  if (!off || *off <= kEven || straight == Straight::to_a_sample) return off && *off <= kEven;
+  const auto rows = static_cast<double>(row_), stamps = static_cast<double>(stamps_.size());
+  if (straight == Straight::named) return *off <= roughly * rows;
+  if (falls_ > 0 || straight == Straight::roughly) return falls_ == 0 && *off <= roughly * rows;
+  std::vector<double> rises;
+  for (std::size_t k = 1; k < stamps_.size(); ++k) rises.push_back(stamps_[k].time - stamps_[k - 1].time);
+  const double rise = quantile(rises, 0.5), spread = quantile(rises, 0.75) - quantile(rises, 0.25);
+  const bool whole = std::ranges::all_of(stamps_, [](const Stamp& s) { return s.time == std::floor(s.time); });
+  return stamps_.size() >= fewest && *off <= rows / stamps && (whole || spread > 1e-3 * rise);
 }
 
 double StampedRows::likely_unit_s(double step, double first) {
@@ -378,6 +432,7 @@ RecordClock StampedRows::clock(double unit_s) const {
     s.time.push_back(stamp.time - stamps_.front().time);
   }
   if (s.shared && n == 2) return found;  // it is unknown how long before the record the first stamp began
+  if (s.shared) s.packet = rows_of_a_packet(s);
   s.step = first_step(s);
   if (s.step <= 0.0) {
     for (std::size_t k = 1; k < n && found.steps_back < 0; ++k)

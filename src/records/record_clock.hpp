@@ -2,6 +2,7 @@
 
 #include <Eigen/Core>
 #include <cstddef>
+#include <optional>
 #include <vector>
 
 namespace twindeck::records {
@@ -36,10 +37,10 @@ struct RecordClock {
 ///
 /// where m_k counts the missing samples before it and e_k is bounded and mostly lateness. m steps where the smallest residual
 /// of the next W stamps exceeds the smallest of the last W by 0.6 samples and by twenty robust deviations. If rows share
-/// stamps, 1.5 samples are needed, because a second may hold one row more or less. Rate and deviation come from a robust line
-/// (Tukey's biweight) through t against k + m; the deviation is the larger one of white residuals and of their means in ten
-/// blocks, and at least that of the unknown position of a row in a shared stamp. A step back from the end of a day to its begin
-/// is midnight. Memory: sixteen bytes a stamp.
+/// stamps, 1.5 samples are needed, because a second may hold one row more or less; or 1.5 packets, if the rows of a stamp vary
+/// by packets. Rate and deviation come from a robust line (Tukey's biweight) through t against k + m; the deviation is the
+/// larger one of white residuals and of their means in ten blocks, and at least that of the unknown position of a row in a
+/// shared stamp. A step back from the end of a day to its begin is midnight, with a date too. Memory: sixteen bytes a stamp.
 class StampedRows {
  public:
   /// The next row's stamp in any unit; NaN where it has none.
@@ -49,9 +50,16 @@ class StampedRows {
   /// Likely unit of stamps [s] if none is known. @param step  between samples, as stamped @param first  stamp; if it lies in
   /// 1990 to 2090 as a count of 100 ns since the year 1 or 1601 (.NET, Windows), that is the unit
   [[nodiscard]] static double likely_unit_s(double step, double first = 0.0);
-  /// Whether an unnamed column can be time: it never falls, lies near a line and does not count samples (1, 2, 3 …).
-  /// @param evenly  also requires a scatter about the line of at most a sample, unlike a motion that rises slowly
-  [[nodiscard]] bool runs_like_time(bool evenly = false) const;
+  /// How near to a line a column of time lies. Its robust scatter is at most:
+  enum class Straight {
+    to_a_sample,  ///< one sample, unlike a motion that rises slowly
+    to_a_stamp,   ///< the rows of a stamp, if it never falls, and its steps are no last digits of a rounded motion
+    roughly,      ///< 5 % of its length, if it never falls
+    named         ///< 5 % of its length; it may fall, as late stamps do
+  };
+  /// Whether a column can be time: it lies near a line but for a few rows (restarts, another rate from some row on, lost stamps
+  /// leave a broken clock, no channel) and does not count samples (1, 2, 3 …).
+  [[nodiscard]] bool runs_like_time(Straight straight) const;
   /// Whether the stamps rise, except at midnight and at a few jumps.
   [[nodiscard]] bool mostly_rises() const;
   [[nodiscard]] Eigen::Index rows() const { return row_; }
@@ -63,6 +71,9 @@ class StampedRows {
     Eigen::Index row;
     double time;
   };
+  /// Robust scatter about the line [samples]; none if most rows lie about no line.
+  /// @param most_set  number of rows at which the clock may be set back @param of_one_rate  not in two parts
+  [[nodiscard]] std::optional<double> samples_about_a_line(Eigen::Index most_set, bool of_one_rate = false) const;
   std::vector<Stamp> stamps_;  ///< the first row of each
   Eigen::Index row_ = 0, without_ = 0, falls_ = 0;
   double midnight_ = 0.0, last_ = 0.0;

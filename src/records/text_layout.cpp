@@ -16,6 +16,7 @@
 #include "records/record_clock.hpp"
 #include "records/take_clock.hpp"
 #include "records/text_cells.hpp"
+#include "records/thousands.hpp"
 #include "records/time_stamp.hpp"
 
 namespace twindeck::records {
@@ -113,9 +114,36 @@ constexpr std::size_t kLeastRun = 3;
 
 bool fits(const Run& run, const TextLayout& layout) { return run.columns >= layout.fewest && run.columns <= layout.columns; }
 
+/// Whether a line of the file has so many cells, all of them values.
+bool has_row_of(const fs::path& file, std::size_t columns, const TextLayout& layout) {
+  io::TextLines in(file);
+  std::size_t found = 0;
+  for (std::string line; in.next(line);)
+    if (is_data(line, layout.separator, layout.decimal_comma, found) && found == columns) return true;
+  return false;
+}
+
+/// Least number of cells in a row of a table whose columns have names: cells at its end may be missing where others are empty,
+/// or where several rows lack them.
+std::size_t fewest_cells(const std::vector<std::string>& lines, const std::vector<Run>& runs, const TextLayout& layout) {
+  std::vector<std::size_t> rows(layout.columns + 1, 0);
+  std::size_t fewest = layout.fewest;
+  for (const Run& run : runs) {
+    if (run.columns < layout.columns && run.columns > 0) rows[run.columns] += run.length;
+    for (std::size_t i = run.first; i < run.first + run.length && run.columns == layout.columns && i < lines.size(); ++i) {
+      auto cells = cells_of(lines[i], layout.separator);
+      if (holds_no_value(lines[i], layout.separator, layout.decimal_comma)) continue;
+      while (cells.size() > 1 && cells.back().empty()) cells.pop_back();
+      fewest = std::min(fewest, cells.size());
+    }
+  }
+  const auto several = std::ranges::find_if(rows, [](std::size_t count) { return count >= kLeastRun; });
+  return std::min(fewest, static_cast<std::size_t>(several - rows.begin()));
+}
+
 /// Finds the columns of the table. Cells that a separator at the end opens in all rows, without a name, do not count. If there
 /// are more names than cells in most rows, and some row has as many cells, the missing cells at the end are empty.
-void find_width(const std::vector<std::string>& lines, const std::vector<Run>& runs, TextLayout& layout) {
+void find_width(const std::vector<std::string>& lines, const std::vector<Run>& runs, const fs::path& file, TextLayout& layout) {
   const Run longest = longest_of(runs);
   const std::size_t named = names_above(lines, runs.front(), layout);
   layout.fewest = layout.columns = longest.columns;
@@ -131,8 +159,9 @@ void find_width(const std::vector<std::string>& lines, const std::vector<Run>& r
   while (layout.columns > 1 && named != layout.columns && layout.separator != ' ' &&
          std::ranges::all_of(runs, [&](const Run& r) { return r.columns != longest.columns || is_empty(r); }))
     layout.fewest = --layout.columns;
-  const bool full = std::ranges::any_of(runs, [&](const Run& run) { return run.columns == named; });
-  if (named > longest.columns && full) layout.columns = named;
+  const auto full = [&](const Run& run) { return run.columns == named; };
+  if (named > longest.columns && (std::ranges::any_of(runs, full) || has_row_of(file, named, layout))) layout.columns = named;
+  if (named == layout.columns) layout.fewest = fewest_cells(lines, runs, layout);
 }
 
 /// The run at which the data begin: the first one as wide as the table that does not belong to the header.
@@ -270,10 +299,12 @@ void leave_stamps(TextLayout& layout) {
   layout.time_parts.reset();
 }
 
-/// Finds columns of numbers that are time. A column named as time must rise. In a file without names it must run like time. If
-/// no name says time, it must be even to a sample (LabVIEW calls it X_Value). The finest column is the clock of the record.
+/// Finds columns of numbers that are time. A column named as time must rise, or lie along a line. In a file without names it
+/// must run like time. If no name says time, it must be even to a sample (LabVIEW calls it X_Value), or to a packet in the
+/// first column or with a unit of time. The finest column is the clock of the record.
 /// @param finest  number of different stamps in the column found so far
 void find_numbers_of_time(const std::vector<std::vector<std::string_view>>& rows, std::size_t finest, TextLayout& layout) {
+  using Straight = StampedRows::Straight;
   constexpr double other = 0.01;  // [-] relative difference of rates above which two clocks differ
   const bool names = !layout.names.empty();
   double clock_Hz = 0.0;
@@ -284,8 +315,12 @@ void find_numbers_of_time(const std::vector<std::vector<std::string_view>>& rows
     for (const auto& row : rows)
       stamps.add(number_in(row[c], layout.decimal_comma).value_or(std::numeric_limits<double>::quiet_NaN()));
     const bool letter = named && unit == 0.0 && trimmed(layout.names[c]).size() == 1;  // T may be a temperature
-    const bool time = named && !letter && !other_unit ? stamps.mostly_rises() || stamps.clock(1.0).reversed
-                                                      : (named || !other_unit) && stamps.runs_like_time(names && !named);
+    const bool packets = unit > 0.0 || (c == 0 && names && layout.units[c].empty());
+    const bool time = named && !letter && !other_unit
+                          ? stamps.mostly_rises() || stamps.clock(1.0).reversed || stamps.runs_like_time(Straight::named)
+                          : (named || !other_unit) && stamps.runs_like_time(!names || named ? Straight::roughly
+                                                                            : packets       ? Straight::to_a_stamp
+                                                                                            : Straight::to_a_sample);
     if (!time) {
       if (named && !(letter && other_unit))
         layout.notes.push_back("column '" + layout.names[c] + "' does not run like time and is read as a channel");
@@ -396,28 +431,6 @@ std::vector<std::string> first_lines(const fs::path& file, TextLayout& layout) {
   return lines;
 }
 
-/// Refuses whole numbers in groups of three ("1,234" beside "999"), which would be read as decimals.
-void refuse_thousands(const std::vector<std::vector<std::string_view>>& rows, const TextLayout& layout, const fs::path& file) {
-  constexpr long least = 10;  // cells with three digits after the sign; decimals of so many cells would include fewer digits
-  const char sign = layout.decimal_comma ? ',' : '.';
-  for (std::size_t c = 0; c < layout.columns; ++c) {
-    long grouped = 0, whole = 0, others = 0;
-    for (const auto& row : rows) {
-      const std::string_view cell = row[c].substr(row[c].starts_with('-') || row[c].starts_with('+') ? 1 : 0);
-      const std::size_t at = cell.find(sign);
-      if (cell.empty() || cell == "0") continue;
-      const bool small = at == std::string_view::npos && cell.size() <= 3;
-      ++(small ? whole : at <= 3 && cell.size() == at + 4 && cell.front() != '0' ? grouped : others);
-    }
-    if (others > 0 || grouped < least || whole == 0) continue;
-    throw InputError({file.string(), layout.first_data_line, ""},
-                     fmt::format("column {}: '{}' stands before three digits in each number that has more, and in no other: it "
-                                 "parts thousands, not decimals",
-                                 c + 1, sign),
-                     "write the table again without signs between thousands");
-  }
-}
-
 /// Refuses a file without a table and names the first text in its middle line.
 [[noreturn]] void refuse_text(const std::vector<std::string>& lines, const fs::path& file) {
   std::string reason;
@@ -462,7 +475,7 @@ TextLayout find_layout(const fs::path& file) {
     }
   }
   if (longest.length < 2) refuse_text(lines, file);
-  find_width(lines, runs, layout);
+  find_width(lines, runs, file, layout);
   std::size_t first = first_of_data(lines, runs, layout).first;
   while (first > 0 && is_incomplete_row(lines[first - 1], layout)) --first;
   layout.first_data_line = static_cast<long>(first) + 1;

@@ -23,7 +23,8 @@ void TimeColumns::decide() {
   for (Index c = first; c < end; ++c) {
     Column& column = columns_[static_cast<std::size_t>(c)];
     column.decided = true;
-    column.is_time = times + 1 < channels_ && column.stamps.rows() >= kLeast && column.stamps.runs_like_time(/*evenly=*/c > 0);
+    column.is_time = times + 1 < channels_ && column.stamps.rows() >= kLeast &&
+                     column.stamps.runs_like_time(c > 0 ? StampedRows::Straight::to_a_sample : StampedRows::Straight::roughly);
     if (column.is_time)
       ++times;
     else

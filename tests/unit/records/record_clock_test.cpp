@@ -147,14 +147,66 @@ TEST(RecordClock, AnotherRateIsToldFromGaps) {
   }
 }
 
+TEST(RecordClock, PacketsUnderWholeSecondsAreNoGaps) {
+  // A second has 100 or 125 rows (100 or 110, 100 or 150): a packet more now and then. Five lost seconds stay a gap.
+  Draw draw(8);
+  for (const int packet : {10, 25, 50}) {
+    for (const int lost : {0, 500}) {
+      const auto arrival = [&](int k) { return (k / packet + 1) * packet / 100.8; };
+      std::vector<double> late(3000);
+      for (double& value : late) value = 0.02 * draw();
+      const RecordClock clock = stamped(20000, [&](int i) {
+                                  const int k = i < 8000 ? i : i + lost;
+                                  return floored(0.37 + arrival(k) + late[static_cast<std::size_t>(k / packet)], 1.0);
+                                }).clock(1.0);
+      EXPECT_LE(std::abs(clock.rate_Hz - 100.8), std::max(4.0 * clock.deviation_Hz, packet / 100.0))
+          << packet << " " << clock.rate_Hz;
+      EXPECT_EQ(clock.gaps.empty(), lost == 0) << packet;
+      EXPECT_NEAR(static_cast<double>(clock.missing()), lost, 1.5 * packet);
+      EXPECT_LT(std::max(clock.steps_back, clock.changes_rate), 0) << packet;
+    }
+  }
+}
+
+TEST(RecordClock, ADateThatStandsStillAtMidnight) {
+  const double midnight = 19860.0 * 86400.0;
+  const auto stood = [&](int i, int rows) { return midnight - 5.0 + i / 100.0 - (i < 500 || i >= rows ? 0.0 : 86400.0); };
+  for (const int rows : {2500, 503})
+    expect_rate(stamped(2500, [&](int i) { return stood(i, rows); }).clock(1.0), 100.0, "date");
+}
+
 TEST(RecordClock, WhatRunsLikeTime) {
+  using Straight = StampedRows::Straight;
   Draw draw(9);
-  EXPECT_TRUE(stamped(200, [](int i) { return 0.01 * i; }).runs_like_time());
-  EXPECT_TRUE(stamped(200, [&](int i) { return 1.7e12 + 10.0 * i + 4.0 * draw(); }).runs_like_time());
-  EXPECT_FALSE(stamped(200, [](int i) { return i + 1.0; }).runs_like_time());  // counts
-  EXPECT_FALSE(stamped(200, [&](int) { return draw(); }).runs_like_time());
-  EXPECT_FALSE(stamped(200, [](int i) { return std::sin(0.1 * i); }).runs_like_time());
-  EXPECT_FALSE(stamped(200, [](int i) { return i < 150 ? 1e-3 * i : std::pow(i, 4); }).runs_like_time());
+  const auto like = [](const Stamp& stamp, Straight straight, int rows = 200) {
+    return stamped(rows, stamp).runs_like_time(straight);
+  };
+  for (const Straight straight : {Straight::to_a_sample, Straight::to_a_stamp, Straight::roughly, Straight::named}) {
+    EXPECT_TRUE(like([](int i) { return 0.01 * i; }, straight));
+    EXPECT_TRUE(like([&](int i) { return 1.7e12 + 10.0 * i + 4.0 * draw(); }, straight));
+    EXPECT_FALSE(like([](int i) { return i + 1.0; }, straight));  // counts
+    EXPECT_FALSE(like([&](int) { return draw(); }, straight));
+    EXPECT_FALSE(like([](int i) { return std::sin(0.1 * i); }, straight));
+    EXPECT_FALSE(like([](int i) { return i < 150 ? 1e-3 * i : std::pow(i, 4); }, straight));
+  }
+  // A broken clock: a lost stamp, a step back, a restart, another rate, stamps out of order by 15 ms.
+  const double none = std::nan("");
+  EXPECT_TRUE(like([&](int i) { return i == 77 ? none : 0.01 * i; }, Straight::to_a_sample));
+  EXPECT_TRUE(like([](int i) { return 0.01 * i - (i < 600 ? 0.0 : 2.0); }, Straight::to_a_sample, 1000));
+  EXPECT_TRUE(like([](int i) { return 0.01 * (i % 500); }, Straight::to_a_sample, 1000));
+  EXPECT_TRUE(like([](int i) { return i < 400 ? 0.01 * i : 4.0 + 0.02 * (i - 400); }, Straight::to_a_sample, 1000));
+  EXPECT_TRUE(like([&](int i) { return 0.01 * i + 0.015 * draw(); }, Straight::to_a_sample, 1000));
+  // Late by ten samples, and a clock set back at each packet: only where the name says time.
+  EXPECT_EQ(like([&](int i) { return 0.01 * i + 0.1 * draw(); }, Straight::roughly, 1000), false);
+  EXPECT_TRUE(like([&](int i) { return 0.01 * i + 0.1 * draw(); }, Straight::named, 1000));
+  EXPECT_TRUE(like([](int i) { return 0.011 * i - 0.025 * (i / 25); }, Straight::named, 1000));
+  // Packets in milliseconds against a temperature that rises by its last digit.
+  double packet = 0.0;
+  const auto packets = [&](int i) { return packet = i % 25 == 0 ? floored(10.0 * i + 40.0 * draw(), 1.0) : packet; };
+  EXPECT_TRUE(like(packets, Straight::to_a_stamp, 2000));
+  EXPECT_FALSE(like(packets, Straight::to_a_sample, 2000));
+  const auto warming = [](int i) { return std::round(1e4 * (12.0 + 0.5 * (1.0 - std::exp(-i / 3e4)))) / 1e4; };
+  EXPECT_FALSE(like(warming, Straight::to_a_stamp, 2000));
 }
 
 }  // namespace
