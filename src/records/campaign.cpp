@@ -7,6 +7,7 @@
 #include <cmath>
 #include <deque>
 #include <limits>
+#include <optional>
 #include <set>
 
 #include "core/error.hpp"
@@ -163,6 +164,21 @@ std::vector<std::string> notes_of(const CampaignRecord& record, const RecordInfo
   auto notes = each_of(info.notes, [&](const std::string& note) { return record.file.string() + ": " + note; });
   if (!match.warning.empty()) notes.push_back(match.warning);
   return notes;
+}
+
+/// The options again with the rows of the asked channels alone, if other channels of the file stand on rows of their own.
+/// @throws InputError  if the asked channels stand on different rows
+std::optional<ReadOptions> with_own_rows(ReadOptions options, const CampaignRecord& record, const RecordInfo& info) {
+  if (!info.apart) return {};
+  options.rows_of = match_columns(info, record.channels, record.columns, record.file).columns;
+  const auto group = [&](std::size_t c) { return info.channels[static_cast<std::size_t>(options.rows_of[c])].row_group; };
+  for (std::size_t c = 1; c < options.rows_of.size(); ++c) {
+    if (group(c) < 0 || group(0) < 0 || group(c) == group(0)) continue;
+    throw InputError({record.file.string(), 0, record.channels[c]},
+                     fmt::format("has values in no row in which {} has: they stand on rows of their own", record.channels[0]),
+                     "write the rows of each clock into a file and a [[record]] with a setup of their own");
+  }
+  return options;
 }
 
 /// Refuses the same samples of the same channels in two records of a kind: they would count as two measurements.
@@ -347,7 +363,7 @@ std::vector<std::vector<RecordGroup>> by_condition(const std::vector<RecordGroup
 }
 
 RecordSamples read_record(const Campaign& campaign, const CampaignRecord& record) {
-  const ReadOptions options{record.skip_stray_lines};
+  ReadOptions options{record.skip_stray_lines};
   constexpr std::uintmax_t large = std::uintmax_t{64} << 20U;  // bytes
   RecordSamples samples;
   std::vector<double> gains;
@@ -366,12 +382,22 @@ RecordSamples read_record(const Campaign& campaign, const CampaignRecord& record
   // asked for are never in memory.
   if (io::require_regular_file(record.file) > large) {
     Index rows = 0;
-    const auto columns = match(records::scan(
-        record.file, [&](Index row, Index, const Eigen::MatrixXd& block) { rows = std::max(rows, row + block.rows()); },
-        options));
+    const auto scanned = [&] {
+      rows = 0;
+      return records::scan(
+          record.file, [&](Index row, Index, const Eigen::MatrixXd& block) { rows = std::max(rows, row + block.rows()); },
+          options);
+    };
+    RecordInfo info = scanned();
+    if (const auto own = with_own_rows(options, record, info)) {
+      options = *own;
+      info = scanned();
+    }
+    const auto columns = match(info);
     samples.values = records::read(record.file, columns, rows, options);
   } else {
-    const Record file = records::read(record.file, options);
+    Record file = records::read(record.file, options);
+    if (const auto own = with_own_rows(options, record, file.info)) file = records::read(record.file, *own);
     samples.values = file.samples(Eigen::all, match(file.info));
   }
   refuse_absurd(samples, record);

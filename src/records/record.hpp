@@ -22,7 +22,8 @@ struct ChannelInfo {
   std::string direction;                 ///< "+x" … of a universal file
   double rate_Hz = 0.0;                  ///< where it may differ between channels
   Eigen::Index samples = 0;
-  Eigen::Index position = 0;  ///< position of its column or series in the file, from 1, with time columns counted
+  Eigen::Index position = 0;   ///< position of its column or series in the file, from 1, with time columns counted
+  Eigen::Index row_group = 0;  ///< channels of different groups never have values in one row of a text file
 };
 
 /// [standard deviations] Rates that differ from the rate of the time stamps by more are different rates.
@@ -43,6 +44,7 @@ struct RecordInfo {
   std::vector<ChannelInfo>
       response_points;          ///< of a universal file with frequency response functions: see frequency_responses.hpp
   std::string functions;        ///< what they are, for people; empty for none
+  bool apart = false;           ///< the channels are of several row groups, so that the clock is that of none
   bool names_channels = false;  ///< the file names its channels itself; otherwise they are called "column 3"
   bool has_header = true;       ///< the format has a place for names, so that missing names are reported
   std::vector<std::string>
@@ -57,6 +59,8 @@ struct RecordInfo {
 struct ReadOptions {
   /// Text files: a line below the header that is no row of numbers is left out and counted in a note, instead of refused.
   bool skip_stray_lines = false;
+  /// Text files: positions in RecordInfo::channels. Rows in which none of these has a value are left out, with their times.
+  std::vector<Eigen::Index> rows_of = {};
 };
 
 /// Called with parts of the record in the order of the file: first sample, first channel, values (samples × channels).

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cctype>
+#include <cmath>
 #include <limits>
 #include <set>
 
@@ -175,6 +176,39 @@ class Rows {
   std::size_t fewest_decimals_ = kNone;  ///< least number of characters from the decimal sign on in the last cell of a row
 };
 
+/// Tells channels that never have values in one row: series of different clocks in one table, each on rows of its own.
+class RowGroups {
+ public:
+  explicit RowGroups(std::size_t channels) : group_(channels), there_(channels, false) {
+    for (std::size_t c = 0; c < channels; ++c) group_[c] = static_cast<Index>(c);
+  }
+  void add(const std::vector<double>& row) {
+    if (std::ranges::all_of(group_, [&](Index group) { return group == group_.front(); })) return;
+    const auto first =
+        static_cast<std::size_t>(std::ranges::find_if(row, [](double value) { return std::isfinite(value); }) - row.begin());
+    for (std::size_t c = first; c < row.size(); ++c) {
+      if (!std::isfinite(row[c])) continue;
+      there_[c] = true;
+      if (const Index old = group_[c]; old != group_[first]) std::ranges::replace(group_, old, group_[first]);
+    }
+  }
+  /// Enters the groups, with a note if there are several. A channel without a value belongs to each.
+  void finish(RecordInfo& info) const {
+    const auto first = static_cast<std::size_t>(std::ranges::find(there_, true) - there_.begin());
+    for (std::size_t c = 0; c < group_.size(); ++c) {
+      info.channels[c].row_group = first < group_.size() && there_[c] ? group_[c] : -1;
+      if (info.channels[c].row_group < 0 || group_[c] == group_[first] || info.apart) continue;
+      info.apart = true;
+      info.notes.push_back(fmt::format("'{}' has values in no row in which '{}' has: they stand on rows of their own",
+                                       info.channels[c].name, info.channels[first].name));
+    }
+  }
+
+ private:
+  std::vector<Index> group_;
+  std::vector<bool> there_;
+};
+
 /// A line without its digits, so that "Channel 1" and "Channel 2" are equal.
 std::string form_of(std::string_view line) {
   std::string out(trimmed(line));
@@ -215,7 +249,8 @@ RecordInfo scan_text(const fs::path& file, const Visitor& visit, const ReadOptio
   Rows rows(layout, columns);
   RowParts parts(std::ssize(columns), visit);
   io::TextLines in(file);
-  long stray = 0, first_stray = 0;
+  RowGroups groups(columns.size());
+  long stray = 0, first_stray = 0, of_others = 0;
   std::set<std::string> header;
   for (std::string line; in.next(line);) {
     if (in.number() < layout.first_data_line) {
@@ -243,6 +278,12 @@ RecordInfo scan_text(const fs::path& file, const Visitor& visit, const ReadOptio
       if (++stray == 1) first_stray = in.number();
       continue;
     }
+    const auto has_value = [&](Index c) { return std::isfinite(rows.values()[static_cast<std::size_t>(c)]); };
+    if (!options.rows_of.empty() && std::ranges::none_of(options.rows_of, has_value)) {
+      ++of_others;
+      continue;
+    }
+    groups.add(rows.values());
     const Index row = parts.rows();
     if (info.lines.empty() || in.number() - row != info.lines.back().second - info.lines.back().first)
       info.lines.emplace_back(row, in.number());
@@ -252,6 +293,7 @@ RecordInfo scan_text(const fs::path& file, const Visitor& visit, const ReadOptio
   parts.flush();
   refuse_wrapped_series(file, layout, parts.rows());
   for (ChannelInfo& channel : info.channels) channel.samples = parts.rows();
+  if (options.rows_of.empty()) groups.finish(info);
   if (layout.time_column >= 0)
     take_clock(stamps, layout.stamps || layout.time_parts ? 1.0 : layout.time_unit_s, "time column" + time_name(layout), info);
   if (layout.header_rate_Hz)
@@ -261,6 +303,8 @@ RecordInfo scan_text(const fs::path& file, const Visitor& visit, const ReadOptio
   };
   note(rows.exchanged(), "one time stamp has day and month exchanged, put right by its order",
        "time stamps have day and month exchanged, put right by their order");
+  note(of_others, "one row has no value of the channels asked for and is left out",
+       "rows have no value of the channels asked for and are left out");
   note(stray, fmt::format("line {} is no row of the table and is left out", first_stray),
        fmt::format("lines are no rows of the table and are left out, the first is line {}", first_stray));
   return info;

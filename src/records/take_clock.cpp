@@ -16,10 +16,6 @@ using Eigen::Index;
 
 namespace {
 
-/// Most values that gaps of the clock may add (80 MB; ten channels at 100 Hz for 2.8 hours). A longer gap is refused: two
-/// records.
-constexpr double kMostLost = 1e7;
-
 std::string rows_of(Index count, const char* what) { return fmt::format("{} {}{}", count, what, count == 1 ? "" : "s"); }
 
 /// One line on all gaps (sign 1) or repeats (sign -1): how many, how long, where the longest lies.
@@ -74,8 +70,14 @@ double time_unit_s(const std::string& unit) {
 
 std::pair<std::string, double> without_time_unit(const std::string& name) {
   const std::size_t last = name.find_last_of("_ ([");
-  const double unit = last == std::string::npos ? 0.0 : time_unit_s(name.substr(last + 1, name.find_last_not_of(")]") - last));
-  return {unit > 0.0 ? name.substr(0, name.find_last_not_of("_ ([", last) + 1) : name, unit};
+  if (last == std::string::npos) return {name, 0.0};
+  const std::string before = name.substr(0, name.find_last_not_of("_ ([", last) + 1), text = io::lower_case(before);
+  if (text.ends_with(" of") || text.ends_with("_of")) {  // "ms of day": the last word tells where the time begins
+    const double whole = time_unit_s(before.substr(0, before.size() - 3));
+    return {name, whole > 0.0 ? whole : without_time_unit(before.substr(0, before.size() - 3)).second};
+  }
+  const double unit = time_unit_s(name.substr(last + 1, name.find_last_not_of(")]") - last));
+  return {unit > 0.0 ? before : name, unit};
 }
 
 std::string place_of(const RecordInfo& info, Index row) {
@@ -114,24 +116,32 @@ void take_stated_rate(double rate_Hz, const std::string& source, RecordInfo& inf
 
 Samples on_the_clock(Samples samples, const RecordInfo& info, const fs::path& file) {
   const RecordClock& clock = info.clock;
-  if (clock.gaps.empty() || clock.changes_rate >= 0 || clock.steps_back >= 0) return samples;
+  if (info.apart || clock.gaps.empty() || clock.changes_rate >= 0 || clock.steps_back >= 0) return samples;
+  const auto back = std::ranges::count_if(clock.gaps, [](const ClockGap& gap) { return gap.samples < 0; });
   double lost = 0.0;
   for (const ClockGap& gap : clock.gaps) {
-    lost += static_cast<double>(std::max<Index>(gap.samples, 0)) * static_cast<double>(samples.cols());
-    if (lost > kMostLost)
-      throw InputError({file.string(), line_of(info, gap.row), ""},
-                       fmt::format("sample {} comes {:.6g} s after the row before it, a gap of {:.6g} samples", gap.row,
-                                   static_cast<double>(gap.samples + 1) / clock.rate_Hz, static_cast<double>(gap.samples)),
-                       "split the record where its clock jumps");
+    lost += static_cast<double>(std::max<Index>(gap.samples, 0));
+    if (lost > static_cast<double>(samples.rows()))  // bridged, it would be no measurement
+      throw InputError(
+          {file.string(), line_of(info, gap.row), ""},
+          fmt::format("sample {} comes {:.6g} s after the row before it, a gap of {:.6g} samples; with {:.6g} missing "
+                      "by then, more is missing than the {} samples that are there",
+                      gap.row, static_cast<double>(gap.samples + 1) / clock.rate_Hz, static_cast<double>(gap.samples), lost,
+                      samples.rows()),
+          "correct the times if the clock did not stop; else split the record where its clock jumps, into files and "
+          "[[record]] tables of their own");
     const Index twice = -gap.samples;
     if (twice <= 0) continue;
     const bool there = gap.row >= twice && gap.row + twice <= samples.rows();
     const auto same = [&](double a, double b) { return a == b || (std::isnan(a) && std::isnan(b)); };
     if (!there || !samples.middleRows(gap.row, twice).binaryExpr(samples.middleRows(gap.row - twice, twice), same).all())
-      throw InputError({file.string(), line_of(info, gap.row), ""},
-                       fmt::format("the time runs backwards by {:.6g} s at {}, and the rows there are no copy of those before",
-                                   static_cast<double>(twice) / clock.rate_Hz, place_of(info, gap.row)),
-                       "split the record there: write the rows from there on into a file and a [[record]] of their own");
+      throw InputError(
+          {file.string(), line_of(info, gap.row), ""},
+          fmt::format("the time runs backwards by {:.6g} s at {}, and the rows there are no copy of those before{}",
+                      static_cast<double>(twice) / clock.rate_Hz, place_of(info, gap.row),
+                      back > 1 ? fmt::format("; it is set back at {} places", back) : ""),
+          back > 1 ? "correct the times, or remove the column of time if its clock is of no use and the rate is known"
+                   : "split the record there: write the rows from there on into a file and a [[record]] of their own");
   }
   Samples whole(samples.rows() + clock.missing() - clock.repeated(), samples.cols());
   Index from = 0, to = 0;

@@ -22,7 +22,8 @@ void take_stated_rate(double rate_Hz, const std::string& source, RecordInfo& inf
 /// [s] of a unit of time by its name ("ms", "µs", "sec" …); 0 for any other.
 [[nodiscard]] double time_unit_s(const std::string& unit);
 
-/// A name without the unit of time at its end ("time_ms", "dt (us)"), and that unit [s]; 0 where it has none.
+/// A name without the unit of time at its end ("time_ms", "dt (us)"), and that unit [s], also of "ms of day"; 0 where it has
+/// none.
 [[nodiscard]] std::pair<std::string, double> without_time_unit(const std::string& name);
 
 /// "sample 1000 (line 1002)" of a row of the file: its place among the samples, gaps counted.
@@ -33,8 +34,8 @@ void take_stated_rate(double rate_Hz, const std::string& source, RecordInfo& inf
 
 /// The samples with rows of NaN where the clock has gaps, and without rows that are there twice.
 /// @param samples  (rows of the file × columns)
-/// @throws InputError  for a gap too long for one record; for rows whose time was there before and whose values differ from
-/// those that had it: nobody can tell which are right
+/// @throws InputError  if more samples are missing than there are; for rows whose time was there before and whose values differ
+/// from those that had it: nobody can tell which are right
 [[nodiscard]] Samples on_the_clock(Samples samples, const RecordInfo& info, const std::filesystem::path& file);
 
 }  // namespace twindeck::records
