@@ -91,19 +91,22 @@ bool ends_in_zone(Scanner& in, std::string_view name, double& ahead) {
   return in.done();
 }
 
-/// hh:mm[:ss[.fff]] [AM|PM] [zone]; mm:ss.fff, as Excel shows times; behind a date hhmmss[.fff] too.
+/// hh:mm[:ss[.fff]] [AM|PM] [zone]; hours above 24 since a start; mm:ss.fff, as Excel shows times; behind a date hhmmss[.fff]
+/// too.
 std::optional<DayTime> time_of_day(Scanner& in, bool behind_date) {
   long hour = 0, minute = 0, second = 0, part = 0;
   int digits = 0;
+  bool second_is_there = false;
   if (!in.number(hour, digits)) return {};
   if (behind_date && (digits == 5 || digits == 6)) {  // 93000 is half past nine as a number
     second = hour % 100;
     minute = hour / 100 % 100;
     hour /= 10000;
-  } else if (digits > 2 || !in.one_of(":") || !in.number(minute, digits) || digits > 2) {
+  } else if (digits > (behind_date ? 2 : 3) || !in.one_of(":") || !in.number(minute, digits) || digits > 2) {
     return {};
   } else if (in.one_of(":")) {
-    if (!in.number(second, digits) || digits > 2) return {};
+    second_is_there = in.number(second, digits) && digits <= 2;
+    if (!second_is_there) return {};
   } else if (in.is_at(".,")) {
     second = std::exchange(minute, std::exchange(hour, 0));
   }
@@ -117,7 +120,8 @@ std::optional<DayTime> time_of_day(Scanner& in, bool behind_date) {
     word = in.word();
   }
   DayTime time{static_cast<double>(hour * 3600 + minute * 60 + second) + fraction, 0.0};
-  if (hour > 24 || minute > 59 || second > 60 || !ends_in_zone(in, word, time.ahead)) return {};
+  const bool elapsed = !behind_date && second_is_there && word.empty() && in.done();  // 100:00:00 since a start
+  if ((hour > 24 && !elapsed) || minute > 59 || second > 60 || !ends_in_zone(in, word, time.ahead)) return {};
   return time;
 }
 

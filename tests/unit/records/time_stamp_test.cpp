@@ -16,10 +16,16 @@ TEST(TimeStamp, DatesAsProgramsWriteThem) {
     ASSERT_EQ(meanings.size(), 1U) << text;
     EXPECT_NEAR(meanings.front(), 1715940000.25, 1e-6) << text;
   }
-  for (const char* text : {"17-Foo-2024 10:00:00", "10:00:00 begin", "ch: 5", "1 2 3 10:00", "20240517", "10:00:00+", ""})
+  for (const char* text : {"17-Foo-2024 10:00:00", "10:00:00 begin", "ch: 5", "1 2 3 10:00", "20240517", "10:00:00+",
+                           "25:00:00Z", "2024-05-17 25:00:00", "1000:00:00", ""})
     EXPECT_TRUE(time_stamp_meanings(text).empty()) << text;
   EXPECT_TRUE(is_date("17-May-24") && is_date("17.05.2024"));
   EXPECT_FALSE(is_date("May") || is_date("10:00") || is_date("17-Foo-24"));
+}
+
+TEST(TimeStamp, HoursSinceAStart) {
+  EXPECT_EQ(time_stamp_meanings("25:00:00.5").front(), 90000.5);
+  EXPECT_EQ(time_stamp_meanings("100:00:01").front(), 360001.0);
 }
 
 TEST(TimeStamp, MinutesAndSecondsPassTheHour) {
