@@ -51,7 +51,7 @@ std::vector<double> distances_to_smaller_order(const std::vector<DiagramPole>& d
 /// Boundary of the two populations of ln d by 2-means, started at its quartiles.
 double split(const std::vector<double>& logs) {
   std::vector<double> sorted = logs;
-  std::sort(sorted.begin(), sorted.end());
+  std::ranges::sort(sorted);
   double low = sorted[sorted.size() / 4], high = sorted[3 * sorted.size() / 4];
   for (int iteration = 0; iteration < 100; ++iteration) {
     double sums[2] = {0.0, 0.0}, counts[2] = {0.0, 0.0};
@@ -70,8 +70,8 @@ double split(const std::vector<double>& logs) {
 
 /// Sets of poles connected by distances below the cut; average linkage never joins across them.
 std::vector<Members> connected(const std::vector<DiagramPole>& diagram, Members candidates, double cut) {
-  std::sort(candidates.begin(), candidates.end(),
-            [&](std::size_t a, std::size_t b) { return diagram[a].pole.frequency_Hz < diagram[b].pole.frequency_Hz; });
+  std::ranges::sort(candidates,
+                    [&](std::size_t a, std::size_t b) { return diagram[a].pole.frequency_Hz < diagram[b].pole.frequency_Hz; });
   Members root(candidates.size());
   std::iota(root.begin(), root.end(), 0U);
   const auto find = [&](std::size_t a) {
@@ -129,7 +129,7 @@ std::size_t centre(const std::vector<DiagramPole>& diagram, const Members& membe
     for (const std::size_t j : members) sum += distance(diagram[i].pole, diagram[j].pole);
     return sum;
   };
-  return *std::min_element(members.begin(), members.end(), [&](std::size_t a, std::size_t b) { return spread(a) < spread(b); });
+  return *std::ranges::min_element(members, [&](std::size_t a, std::size_t b) { return spread(a) < spread(b); });
 }
 
 /// The group, with the poles of its missing orders that lie within `reach` of its centre.
@@ -200,9 +200,9 @@ bool gives_way(const std::vector<DiagramPole>& diagram, const Cluster& cluster, 
   const auto last = [&](const Cluster& c) { return diagram[c.members.back()].pole.order; };
   if (last(low) <= last(cluster) || last(high) <= last(cluster)) return false;
   const auto is_at = [&](const Cluster& c, int order) {
-    return std::any_of(c.members.begin(), c.members.end(), [&](std::size_t i) { return diagram[i].pole.order == order; });
+    return std::ranges::any_of(c.members, [&](std::size_t i) { return diagram[i].pole.order == order; });
   };
-  const auto both = std::count_if(cluster.members.begin(), cluster.members.end(), [&](std::size_t i) {
+  const auto both = std::ranges::count_if(cluster.members, [&](std::size_t i) {
     const int order = diagram[i].pole.order;
     return is_at(low, order) && is_at(high, order);
   });
@@ -214,8 +214,8 @@ bool is_beside(const std::vector<DiagramPole>& diagram, const std::vector<int>& 
                const Cluster& other, const AutomaticRule& rule) {
   std::set<int> present;
   for (const std::size_t i : other.members) present.insert(diagram[i].pole.order);
-  const auto both = std::count_if(cluster.members.begin(), cluster.members.end(),
-                                  [&](std::size_t i) { return present.contains(diagram[i].pole.order); });
+  const auto both =
+      std::ranges::count_if(cluster.members, [&](std::size_t i) { return present.contains(diagram[i].pole.order); });
   return static_cast<double>(both) >= rule.share_beside * static_cast<double>(orders.size());
 }
 
@@ -226,7 +226,7 @@ std::vector<Cluster> distinct_clusters(const std::vector<DiagramPole>& diagram, 
                                        std::vector<Cluster> clusters, const AutomaticRule& rule) {
   std::vector<Cluster> distinct;
   for (Cluster& cluster : clusters) {
-    const bool again = std::any_of(distinct.begin(), distinct.end(), [&](const Cluster& larger) {
+    const bool again = std::ranges::any_of(distinct, [&](const Cluster& larger) {
       const double half_bandwidth = larger.damping_ratio * larger.frequency_Hz;
       return std::abs(cluster.frequency_Hz - larger.frequency_Hz) < half_bandwidth &&
              std::norm(cluster.shape.dot(larger.shape)) > 0.8 && !is_beside(diagram, orders, cluster, larger, rule);
@@ -248,8 +248,8 @@ std::vector<bool> mixtures(const std::vector<DiagramPole>& diagram, const std::v
       if (other.members.size() <= cluster.members.size() || std::abs(other.frequency_Hz - f) > rule.mixture_reach * f) continue;
       (other.frequency_Hz < f ? below : above).push_back(&other);
     }
-    is_mixture.push_back(std::any_of(below.begin(), below.end(), [&](const Cluster* low) {
-      return std::any_of(above.begin(), above.end(), [&](const Cluster* high) {
+    is_mixture.push_back(std::ranges::any_of(below, [&](const Cluster* low) {
+      return std::ranges::any_of(above, [&](const Cluster* high) {
         return gives_way(diagram, cluster, *low, *high, share_beside) &&
                outside_span(cluster.shape, low->shape, high->shape) < residual;
       });
@@ -280,7 +280,7 @@ std::vector<Cluster> automatic_clusters(std::vector<DiagramPole>& diagram, const
     return false;
   });
   if (candidates.empty()) return {};
-  std::sort(physical_distances.begin(), physical_distances.end());
+  std::ranges::sort(physical_distances);
   const double quantile = physical_distances[(physical_distances.size() - 1) * 95 / 100];
   const double cut = std::clamp(quantile, rule.smallest_cut, rule.largest_cut);
 
@@ -289,7 +289,7 @@ std::vector<Cluster> automatic_clusters(std::vector<DiagramPole>& diagram, const
     for (Members& group : agglomerate(diagram, set, cut)) groups.push_back(std::move(group));
   // The largest group first: if a mode has fallen apart, its larger part collects the poles, and the rest is too small to
   // count.
-  std::stable_sort(groups.begin(), groups.end(), [](const Members& a, const Members& b) { return a.size() > b.size(); });
+  std::ranges::stable_sort(groups, [](const Members& a, const Members& b) { return a.size() > b.size(); });
   std::vector<Cluster> clusters;
   std::vector<bool> claimed(diagram.size(), false);
   for (Members& group : groups) {

@@ -90,8 +90,8 @@ std::string lag_warning(const Conditioned& conditioned, const Identification& fo
   for (const Cluster& mode : found.modes) highest_Hz = std::max(highest_Hz, mode.frequency_Hz);
   std::vector<std::string> off;
   for (const records::CampaignChannel& channel : conditioned.channels) {
-    const auto row = std::find_if(conditioned.quality.begin(), conditioned.quality.end(),
-                                  [&](const ChannelQuality& q) { return q.channel == channel.name && q.lag_s; });
+    const auto row = std::ranges::find_if(conditioned.quality,
+                                          [&](const ChannelQuality& q) { return q.channel == channel.name && q.lag_s; });
     if (row == conditioned.quality.end() || !row->lag_std_s) continue;
     const double lag_s = *row->lag_s, turn_deg = 360.0 * highest_Hz * std::abs(lag_s);
     if (std::abs(lag_s) <= kLagDeviations * *row->lag_std_s || turn_deg <= kLagTurn_deg) continue;

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <map>
 
+#include "core/lists.hpp"
 #include "core/statistics.hpp"
 #include "modal/mac.hpp"
 
@@ -30,29 +31,6 @@ void judge(DiagramPole& candidate, const std::vector<Pole>& before, const Stabil
   candidate.stable_damping = std::abs(pole.damping_ratio - partner->damping_ratio) < criteria.damping;
   candidate.stable_shape = mac_of(pole, *partner) >= criteria.mac;
 }
-
-}  // namespace
-
-std::vector<DiagramPole> stabilisation_diagram(const std::vector<std::vector<Pole>>& poles,
-                                               const StabilisationCriteria& criteria, const PoleLimits& limits) {
-  std::vector<DiagramPole> diagram;
-  std::vector<Pole> before;
-  for (const std::vector<Pole>& of_order : poles) {
-    std::vector<Pole> kept;
-    for (const Pole& pole : of_order)
-      if (within(pole, limits)) kept.push_back(pole);
-    for (const Pole& pole : kept) {
-      diagram.push_back({pole});
-      judge(diagram.back(), before, criteria);
-    }
-    before = std::move(kept);
-  }
-  return diagram;
-}
-
-using Eigen::Index;
-
-namespace {
 
 std::vector<std::size_t> stable_poles(const std::vector<DiagramPole>& diagram) {
   std::vector<std::size_t> stable;
@@ -96,9 +74,28 @@ bool recurs(const std::vector<DiagramPole>& diagram, const std::vector<std::size
 
 }  // namespace
 
+std::vector<DiagramPole> stabilisation_diagram(const std::vector<std::vector<Pole>>& poles,
+                                               const StabilisationCriteria& criteria, const PoleLimits& limits) {
+  std::vector<DiagramPole> diagram;
+  std::vector<Pole> before;
+  for (const std::vector<Pole>& of_order : poles) {
+    std::vector<Pole> kept;
+    for (const Pole& pole : of_order)
+      if (within(pole, limits)) kept.push_back(pole);
+    for (const Pole& pole : kept) {
+      diagram.push_back({pole});
+      judge(diagram.back(), before, criteria);
+    }
+    before = std::move(kept);
+  }
+  return diagram;
+}
+
+using Eigen::Index;
+
 Cluster summarise(const std::vector<DiagramPole>& diagram, std::vector<std::size_t> members) {
   Cluster cluster;
-  std::sort(members.begin(), members.end());
+  std::ranges::sort(members);
   std::vector<double> frequency, damping;
   for (const std::size_t i : members) {
     frequency.push_back(diagram[i].pole.frequency_Hz);
@@ -147,16 +144,14 @@ std::vector<std::size_t> one_an_order(const std::vector<DiagramPole>& diagram, c
     if (!is_new && std::norm(reference.dot(diagram[i].pole.shape)) > std::norm(reference.dot(diagram[at->second].pole.shape)))
       at->second = i;
   }
-  std::vector<std::size_t> kept;
-  for (const auto& entry : best) kept.push_back(entry.second);
-  return kept;
+  return each_of(best, [](const auto& entry) { return entry.second; });
 }
 
 std::size_t possible_orders(const std::vector<DiagramPole>& diagram, const std::vector<std::size_t>& members,
                             const std::vector<int>& orders) {
   int first = orders.back();
   for (const std::size_t i : members) first = std::min(first, diagram[i].pole.order);
-  return static_cast<std::size_t>(std::count_if(orders.begin(), orders.end(), [&](int order) { return order >= first; }));
+  return static_cast<std::size_t>(std::ranges::count_if(orders, [&](int order) { return order >= first; }));
 }
 
 void number_clusters(std::vector<DiagramPole>& diagram, std::vector<Cluster>& clusters) {

@@ -7,6 +7,7 @@
 #include <numeric>
 
 #include "core/error.hpp"
+#include "core/lists.hpp"
 #include "identification/channel_lag.hpp"
 #include "identification/common_motion.hpp"
 #include "identification/doubts.hpp"
@@ -23,15 +24,12 @@ using Eigen::Index;
 namespace {
 
 Index position_of(const std::vector<records::CampaignChannel>& channels, const std::string& name) {
-  const auto at =
-      std::find_if(channels.begin(), channels.end(), [&](const records::CampaignChannel& c) { return c.name == name; });
+  const auto at = std::ranges::find(channels, name, &records::CampaignChannel::name);
   return at == channels.end() ? -1 : static_cast<Index>(at - channels.begin());
 }
 
 std::vector<Index> positions(const ConditionResult& result, const std::vector<records::CampaignChannel>& channels) {
-  std::vector<Index> list;
-  for (const records::CampaignChannel& channel : channels) list.push_back(position_of(result.channels, channel.name));
-  return list;
+  return each_of(channels, [&](const auto& channel) { return position_of(result.channels, channel.name); });
 }
 
 /// Positions, in the list of all channels, of the references that every setup has.
@@ -61,7 +59,7 @@ void list_channels(ConditionResult& result) {
 
 /// Whether all setups have one rate; setups of different rates have no common lags.
 bool is_one_rate(const ConditionResult& result) {
-  return std::all_of(result.setups.begin(), result.setups.end(), [&](const SetupResult& setup) {
+  return std::ranges::all_of(result.setups, [&](const SetupResult& setup) {
     return setup.conditioned.rate_Hz == result.setups.front().conditioned.rate_Hz;
   });
 }
@@ -83,8 +81,7 @@ Scales preger_scales(const ConditionResult& result, const std::vector<Index>& re
     const std::vector<Index> at = positions(result, setup.conditioned.channels);
     double log_level = 0.0;
     for (std::size_t c = 0; c < at.size(); ++c) {
-      const bool common = std::find(references.begin(), references.end(), at[c]) != references.end();
-      if (common) log_level += log_rms[static_cast<Index>(c)] / static_cast<double>(references.size());
+      if (contains(references, at[c])) log_level += log_rms[static_cast<Index>(c)] / static_cast<double>(references.size());
     }
     scales.level.push_back(std::exp(log_level));
     for (std::size_t c = 0; c < at.size(); ++c) {
@@ -133,8 +130,7 @@ Identification preger(const ConditionResult& result, const std::vector<Index>& r
 void sort_by_frequency(ConditionResult& result) {
   std::vector<std::size_t> order(result.modes.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
-  std::stable_sort(order.begin(), order.end(),
-                   [&](std::size_t a, std::size_t b) { return result.modes[a].frequency_Hz < result.modes[b].frequency_Hz; });
+  std::ranges::stable_sort(order, {}, [&](std::size_t i) { return result.modes[i].frequency_Hz; });
   std::vector<MergedMode> modes;
   std::vector<MergingCheck> checks;
   for (const std::size_t i : order) {

@@ -31,7 +31,7 @@ void read_by_amplitude(DecayResult& result, const Eigen::MatrixXd& decay, double
   for (std::size_t m = 0; m < result.found.modes.size(); ++m) {
     const Cluster& mode = result.found.modes[m];
     // Modes closer than the filter can separate would beat in its band.
-    const bool alone = std::all_of(result.found.modes.begin(), result.found.modes.end(), [&](const Cluster& other) {
+    const bool alone = std::ranges::all_of(result.found.modes, [&](const Cluster& other) {
       return &other == &mode || std::abs(other.frequency_Hz - mode.frequency_Hz) > 1.5 * config.decay_band_Hz;
     });
     if (!alone || mode.frequency_Hz < 2.0 * config.decay_band_Hz) continue;
@@ -106,7 +106,7 @@ std::optional<AmbientPartner> partner_of(const Cluster& mode, const std::vector<
 }
 
 const ConditionResult* condition_named(const std::vector<ConditionResult>& results, const std::string& name) {
-  const auto at = std::find_if(results.begin(), results.end(), [&](const ConditionResult& r) { return r.condition == name; });
+  const auto at = std::ranges::find(results, name, &ConditionResult::condition);
   return at == results.end() ? nullptr : &*at;
 }
 
@@ -124,7 +124,7 @@ std::vector<ConditionResult> decay_conditions(std::vector<DecayResult>& decays) 
       results.emplace_back().condition = name;
       results.back().of_decays = true;
     }
-    ConditionResult& result = *std::find_if(results.begin(), results.end(), [&](const auto& r) { return r.condition == name; });
+    ConditionResult& result = *std::ranges::find(results, name, &ConditionResult::condition);
     SetupResult& setup = result.setups.emplace_back();
     static_cast<ConditionedInfo&>(setup.conditioned) = decay.conditioned;
     setup.conditioned.quality.clear();  // the quality stays with the decay
@@ -175,8 +175,8 @@ std::vector<DecayResult> identify_free_decays(const std::vector<Conditioned>& re
     }
     const IdentifyOptions options = own.options(conditioned.rate_Hz, conditioned.channels);
     result.found = identify_decays(pieces, conditioned.rate_Hz, options, seed, quiet);
-    const auto tests = std::count_if(records.begin(), records.end(),
-                                     [&](const Conditioned& other) { return other.condition == conditioned.condition; });
+    const auto tests =
+        std::ranges::count_if(records, [&](const Conditioned& other) { return other.condition == conditioned.condition; });
     if (tests == 1 && options.selection == Selection::automatic)
       if (const auto dropped = drop_noise_of_a_decay(result.found, length); !dropped.empty())
         result.note +=

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/lists.hpp"
 #include "core/statistics.hpp"
 #include "identification/sampling.hpp"
 
@@ -36,9 +37,7 @@ void short_blocks(const ConditionResult& result, std::vector<std::string>& doubt
 
 void far_dampings(const ConditionResult& result, std::vector<std::string>& doubts) {
   if (result.modes.size() < kFewestModes) return;
-  std::vector<double> all;
-  for (const MergedMode& mode : result.modes) all.push_back(mode.damping_ratio);
-  const double median = upper_median(all);
+  const double median = upper_median(each_of(result.modes, &MergedMode::damping_ratio));
   for (std::size_t m = 0; m < result.modes.size(); ++m) {
     const double zeta = result.modes[m].damping_ratio, sure = kSure * result.modes[m].deviation.damping_ratio;
     if (zeta - sure < kFarDamping * median && zeta + sure > median / kFarDamping) continue;
@@ -51,11 +50,11 @@ void far_dampings(const ConditionResult& result, std::vector<std::string>& doubt
 bool is_explained(const SetupResult& setup, double f) {
   const auto near = [&](double other, double half_width) { return std::abs(other - f) <= std::max(kNearPeak * f, half_width); };
   const double spacing = setup.singular.frequency_Hz[1] - setup.singular.frequency_Hz[0];
-  const auto mode = std::any_of(setup.found.modes.begin(), setup.found.modes.end(), [&](const Cluster& m) {
+  const auto mode = std::ranges::any_of(setup.found.modes, [&](const Cluster& m) {
     return near(m.frequency_Hz, std::max(3.0 * spacing, 2.0 * m.damping_ratio * m.frequency_Hz));
   });
-  const auto line = std::any_of(setup.found.periodic.begin(), setup.found.periodic.end(),
-                                [&](const PeriodicLine& p) { return near(p.frequency_Hz, 3.0 * spacing); });
+  const auto line =
+      std::ranges::any_of(setup.found.periodic, [&](const PeriodicLine& p) { return near(p.frequency_Hz, 3.0 * spacing); });
   return mode || line;
 }
 

@@ -9,6 +9,7 @@
 #include <optional>
 
 #include "core/error.hpp"
+#include "core/lists.hpp"
 #include "identification/input_output.hpp"
 #include "identification/lying_channels.hpp"
 #include "identification/repeated_rows.hpp"
@@ -21,17 +22,20 @@ using Eigen::Index;
 
 namespace {
 
-bool listed(const std::vector<std::string>& names, const std::string& name) {
-  return std::find(names.begin(), names.end(), name) != names.end();
+/// Columns of a record that are inputs, or responses, and not excluded.
+std::vector<Index> columns_of(const records::Campaign& campaign, const records::CampaignRecord& record,
+                              const IdentificationSettings& config, bool inputs) {
+  std::vector<Index> columns;
+  for (std::size_t c = 0; c < record.channels.size(); ++c)
+    if (campaign.channel(record.channels[c]).is_input == inputs && !contains(config.exclude, record.channels[c]))
+      columns.push_back(static_cast<Index>(c));
+  return columns;
 }
 
 std::vector<Index> used_columns(const records::Campaign& campaign, const records::CampaignRecord& record,
                                 const IdentificationSettings& config) {
   require_known(config.exclude, record.channels, "exclude");
-  std::vector<Index> columns;
-  for (std::size_t c = 0; c < record.channels.size(); ++c)
-    if (!campaign.channel(record.channels[c]).is_input && !listed(config.exclude, record.channels[c]))
-      columns.push_back(static_cast<Index>(c));
+  std::vector<Index> columns = columns_of(campaign, record, config, false);
   if (columns.empty() && config.exclude.empty())
     throw InputError({(campaign.folder / "channels.csv").string(), 0, "role"}, "no channel of the record is a response",
                      "give one at least the role response");
@@ -43,15 +47,6 @@ std::vector<Index> used_columns(const records::Campaign& campaign, const records
         fmt::format("{} response channels are to be identified together, expected at most {}", columns.size(), most),
         "divide them over several [[record]] tables of the same file with a setup each, which share some references, "
         "or leave channels out by the key `exclude`");
-  return columns;
-}
-
-std::vector<Index> inputs_of(const records::Campaign& campaign, const records::CampaignRecord& record,
-                             const IdentificationSettings& config) {
-  std::vector<Index> columns;
-  for (std::size_t c = 0; c < record.channels.size(); ++c)
-    if (campaign.channel(record.channels[c]).is_input && !listed(config.exclude, record.channels[c]))
-      columns.push_back(static_cast<Index>(c));
   return columns;
 }
 
@@ -80,7 +75,7 @@ void refuse_lone(const ChannelQuality& q, double largest, const std::string& wit
 void refuse_unusable(const std::vector<ChannelQuality>& quality, const std::vector<records::CampaignChannel>& used,
                      const IdentificationSettings& config) {
   for (const ChannelQuality& q : quality) {
-    const auto channel = std::find_if(used.begin(), used.end(), [&](const auto& c) { return c.name == q.channel; });
+    const auto channel = std::ranges::find(used, q.channel, &records::CampaignChannel::name);
     if (channel == used.end()) continue;
     const std::string without = "leave the channel out: --set 'exclude=[\"" + q.channel + "\"]'";
     if (!q.left_out.empty()) throw LyingChannel({q.record, 0, q.channel}, q.left_out, without);
@@ -123,21 +118,17 @@ Conditioned condition_with(const records::Campaign& campaign, const records::Rec
                            const IdentificationSettings& config) {
   const auto decimation = static_cast<Index>(std::max(config.decimation, 1L));
   const records::CampaignRecord& first = group.records.front();
-  const std::vector<Index> columns = used_columns(campaign, first, config), input_columns = inputs_of(campaign, first, config);
+  const std::vector<Index> columns = used_columns(campaign, first, config),
+                           input_columns = columns_of(campaign, first, config, true);
   Conditioned conditioned;
   conditioned.setup = first.setup;
   conditioned.condition = first.condition;
   conditioned.rate_Hz = first.sampling_rate_Hz / static_cast<double>(decimation);
-  std::vector<std::string> names;
-  for (const Index c : columns) {
-    names.push_back(first.channels[static_cast<std::size_t>(c)]);
-    conditioned.channels.push_back(campaign.channel(names.back()));
-  }
-  std::vector<std::string> input_names;
-  for (const Index c : input_columns) {
-    input_names.push_back(first.channels[static_cast<std::size_t>(c)]);
-    conditioned.inputs.push_back(campaign.channel(input_names.back()));
-  }
+  const auto name_of = [&](Index column) { return first.channels[static_cast<std::size_t>(column)]; };
+  const std::vector<std::string> names = each_of(columns, name_of), input_names = each_of(input_columns, name_of);
+  const auto channel_of = [&](const std::string& name) { return campaign.channel(name); };
+  conditioned.channels = each_of(names, channel_of);
+  conditioned.inputs = each_of(input_names, channel_of);
   choose_references(conditioned, config.references);
   static_cast<void>(config.options(conditioned.rate_Hz, conditioned.channels));  // refuses a band above that of the records
   // Channels are prepared one by one, so that memory holds the record and only one channel more.
@@ -180,23 +171,41 @@ Conditioned condition_with(const records::Campaign& campaign, const records::Rec
   return conditioned;
 }
 
+/// What turns the entries of a shape of scaled channels into the first channel's quantity. @param lambda  the pole
+Eigen::VectorXcd to_first_quantity(const std::vector<records::CampaignChannel>& channels, const Eigen::VectorXd& scale,
+                                   std::complex<double> lambda) {
+  Eigen::VectorXcd factor(std::ssize(channels));
+  for (Index c = 0; c < factor.size(); ++c) {
+    const int order = derivative(channels[static_cast<std::size_t>(c)].quantity) - derivative(channels.front().quantity);
+    factor[c] = scale[c] * std::pow(lambda, -order);
+  }
+  return factor;
+}
+
+Identification identify_ambient(const std::vector<Samples>& scaled, const Conditioned& conditioned,
+                                const IdentificationSettings& config, const IdentifyOptions& options) {
+  signal::BlockCorrelations blocks;
+  for (const Samples& record : scaled)
+    blocks.append(signal::correlations(record, conditioned.references, 2 * config.block_rows, config.blocks));
+  return config.method == "data" ? identify_from_data(scaled, conditioned.references, blocks, conditioned.rate_Hz, options)
+                                 : identify(blocks, conditioned.rate_Hz, options);
+}
+
 }  // namespace
 
 void require_known(const std::vector<std::string>& asked, const std::vector<std::string>& known, const std::string& key) {
   for (const std::string& name : asked)
-    if (!listed(known, name))
+    if (!contains(known, name))
       throw InputError({"", 0, key}, fmt::format("'{}' is no channel of the record{}", name, did_you_mean(name, known)),
                        "name its columns");
 }
 
 void choose_references(Conditioned& conditioned, const std::vector<std::string>& asked) {
-  std::vector<std::string> names;
-  for (const records::CampaignChannel& channel : conditioned.channels) names.push_back(channel.name);
+  const std::vector<std::string> names = each_of(conditioned.channels, &records::CampaignChannel::name);
   require_known(asked, names, "references");
-  const bool marked =
-      std::any_of(conditioned.channels.begin(), conditioned.channels.end(), [](const auto& c) { return c.reference; });
+  const bool marked = std::ranges::any_of(conditioned.channels, &records::CampaignChannel::reference);
   for (std::size_t c = 0; c < names.size(); ++c) {
-    const bool chosen = !asked.empty() ? listed(asked, names[c]) : !marked || conditioned.channels[c].reference;
+    const bool chosen = !asked.empty() ? contains(asked, names[c]) : !marked || conditioned.channels[c].reference;
     if (chosen) conditioned.references.push_back(static_cast<Index>(c));
   }
 }
@@ -219,8 +228,8 @@ Conditioned condition_records(const records::Campaign& campaign, const records::
       const std::string& name = lie.place().key;
       const auto& names = group.records.front().channels;
       const auto responses = std::ranges::count_if(
-          names, [&](const std::string& n) { return !campaign.channel(n).is_input && !listed(without.exclude, n); });
-      if (campaign.channel(name).reference || listed(config.references, name)) throw;
+          names, [&](const std::string& n) { return !campaign.channel(n).is_input && !contains(without.exclude, n); });
+      if (campaign.channel(name).reference || contains(config.references, name)) throw;
       if (responses < 2) throw LyingChannel(*first);
       without.exclude.push_back(name);
       reasons[name] = lie.what();
@@ -243,27 +252,14 @@ Eigen::VectorXd channel_rms(const std::vector<Samples>& records) {
 
 Eigen::VectorXcd physical_shape(const Eigen::VectorXcd& shape, const std::vector<records::CampaignChannel>& channels,
                                 const Eigen::VectorXd& scale, double frequency_Hz, double damping_ratio) {
-  const std::complex<double> lambda = 2.0 * std::numbers::pi * frequency_Hz *
-                                      std::complex<double>(-damping_ratio, std::sqrt(1.0 - damping_ratio * damping_ratio));
-  Eigen::VectorXcd physical = shape;
-  for (Index c = 0; c < shape.size(); ++c) {
-    const int order = derivative(channels[static_cast<std::size_t>(c)].quantity) - derivative(channels.front().quantity);
-    physical[c] *= scale[c] * std::pow(lambda, -order);
-  }
-  return normalised_shape(physical);
+  return normalised_shape(shape.cwiseProduct(to_first_quantity(channels, scale, eigenvalue_of(frequency_Hz, damping_ratio))));
 }
 
 void to_physical_shapes(Identification& found, const std::vector<records::CampaignChannel>& channels,
                         const Eigen::VectorXd& scale) {
-  const auto n = static_cast<Index>(channels.size());
   for (std::size_t m = 0; m < found.modes.size(); ++m) {
     Cluster& mode = found.modes[m];
-    const std::complex<double> lambda = found.diagram[mode.representative].pole.eigenvalue;
-    Eigen::VectorXcd factor(n);
-    for (Index c = 0; c < n; ++c) {
-      const int order = derivative(channels[static_cast<std::size_t>(c)].quantity) - derivative(channels.front().quantity);
-      factor[c] = scale[c] * std::pow(lambda, -order);
-    }
+    const Eigen::VectorXcd factor = to_first_quantity(channels, scale, found.diagram[mode.representative].pole.eigenvalue);
     const Eigen::VectorXcd physical = mode.shape.cwiseProduct(factor);
     const double norm = physical.norm();
     mode.shape = normalised_shape(physical);
@@ -277,19 +273,6 @@ void to_physical_shapes(Identification& found, const std::vector<records::Campai
     deviation.shape_imag.array() *= magnitude.array();
   }
 }
-
-namespace {
-
-Identification identify_ambient(const std::vector<Samples>& scaled, const Conditioned& conditioned,
-                                const IdentificationSettings& config, const IdentifyOptions& options) {
-  signal::BlockCorrelations blocks;
-  for (const Samples& record : scaled)
-    blocks.append(signal::correlations(record, conditioned.references, 2 * config.block_rows, config.blocks));
-  return config.method == "data" ? identify_from_data(scaled, conditioned.references, blocks, conditioned.rate_Hz, options)
-                                 : identify(blocks, conditioned.rate_Hz, options);
-}
-
-}  // namespace
 
 Identification identify_modes(const Conditioned& conditioned, const IdentificationSettings& config) {
   const IdentifyOptions options = config.options(conditioned.rate_Hz, conditioned.channels);

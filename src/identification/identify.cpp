@@ -86,79 +86,13 @@ bool is_shadow(const Identification& found, std::size_t m, bool stationary) {
 /// Checks modes that have lost poles once more for mixtures, which the lost poles may have hidden. Only modes that the records
 /// determine count as parts of a mixture.
 void drop_hidden_mixtures(Identification& result, const AutomaticRule& rule) {
-  std::vector<bool> stays = mixtures(result.diagram, result.modes, rule, 0.0);
-  for (std::size_t m = 0; m < stays.size(); ++m) {
-    const auto marked = std::count_if(result.diagram.begin(), result.diagram.end(),
-                                      [&](const DiagramPole& pole) { return pole.mode == static_cast<int>(m); });
-    const bool has_lost = static_cast<std::size_t>(marked) > result.modes[m].members.size();
-    stays[m] = !(stays[m] && has_lost);
-  }
-  keep_modes(result, stays);
+  const std::vector<bool> is_part = mixtures(result.diagram, result.modes, rule, 0.0);
+  keep_modes_where(result, [&](std::size_t m) {
+    const auto marked =
+        std::ranges::count_if(result.diagram, [&](const DiagramPole& pole) { return pole.mode == static_cast<int>(m); });
+    return !is_part[m] || static_cast<std::size_t>(marked) <= result.modes[m].members.size();
+  });
 }
-
-}  // namespace
-
-void keep_modes(Identification& result, const std::vector<bool>& stays) {
-  const std::size_t n = result.modes.size();
-  std::vector<int> renumbered(n, -1);
-  std::size_t kept = 0;
-  for (std::size_t m = 0; m < n; ++m) {
-    if (!stays[m]) continue;
-    renumbered[m] = static_cast<int>(kept);
-    if (kept != m) {
-      result.modes[kept] = result.modes[m];
-      if (m < result.deviations.size()) result.deviations[kept] = result.deviations[m];
-    }
-    ++kept;
-  }
-  result.modes.resize(kept);
-  result.deviations.resize(std::min(result.deviations.size(), kept));
-  for (DiagramPole& pole : result.diagram)
-    if (pole.mode >= 0) pole.mode = renumbered[static_cast<std::size_t>(pole.mode)];
-}
-
-void drop_undetermined(Identification& result, const IdentifyOptions& options, double seconds) {
-  std::vector<bool> stays;
-  for (std::size_t m = 0; m < result.modes.size(); ++m)
-    stays.push_back(is_settled(result.modes[m], result.deviations[m], options, seconds));
-  keep_modes(result, stays);
-  if (options.selection != Selection::automatic) return;
-  drop_hidden_mixtures(result, options.automatic);
-  stays.clear();
-  for (std::size_t m = 0; m < result.modes.size(); ++m) stays.push_back(!is_shadow(result, m, is_stationary(options, seconds)));
-  keep_modes(result, stays);
-}
-
-std::vector<std::string> drop_noise_of_a_decay(Identification& result, Eigen::Index samples) {
-  const double largest = std::sqrt(2.0 * std::log(static_cast<double>(samples)));
-  std::vector<bool> stays;
-  std::vector<std::string> dropped;
-  for (std::size_t m = 0; m < result.modes.size(); ++m) {
-    const double damping = result.modes[m].damping_ratio, deviation = result.deviations[m].damping_ratio;
-    stays.push_back(damping > largest * deviation);
-    if (!stays.back())
-      dropped.push_back(fmt::format("{:.4g} Hz (damping ratio {:.2g} % with a deviation of {:.2g} %)",
-                                    result.modes[m].frequency_Hz, 100.0 * damping, 100.0 * deviation));
-  }
-  keep_modes(result, stays);
-  return dropped;
-}
-
-void drop_better_than_random(Identification& result, double seconds) {
-  constexpr double kChance = 3.0;  // standard deviations of a deviation from n blocks, each 1/sqrt(2 (n - 1)) of it
-  std::vector<bool> stays;
-  for (std::size_t m = 0; m < result.modes.size(); ++m) {
-    const Cluster& mode = result.modes[m];
-    const double law = std::sqrt(mode.damping_ratio * mode.frequency_Hz / (2.0 * std::numbers::pi * seconds));
-    const auto blocks = static_cast<double>(result.deviations[m].factor.cols());
-    stays.push_back(blocks < 2.0 ||
-                    result.deviations[m].frequency_Hz >= (1.0 - kChance / std::sqrt(2.0 * (blocks - 1.0))) * law);
-  }
-  const auto n_random = std::count(stays.begin(), stays.end(), true);
-  if (2 * n_random > std::ssize(stays)) keep_modes(result, stays);
-}
-
-namespace {
 
 Identification select(const ShiftModels& models, const IdentifyOptions& options) {
   Identification result = modes_of_poles(poles_of(models), options.orders(), options);
@@ -172,7 +106,7 @@ bool has_twin(const Identification& result, const ShiftModels& models, const Pol
   constexpr double kStableShape = 0.95;  // MAC of a stable shape, paper section 3.1
   constexpr double kChance = 3.0;        // [standard deviations] of the difference
   const Pole& pole = result.diagram[i].pole;
-  return std::any_of(result.diagram.begin(), result.diagram.end(), [&](const DiagramPole& other) {
+  return std::ranges::any_of(result.diagram, [&](const DiagramPole& other) {
     const Pole& twin = other.pole;
     return twin.order == pole.order && &twin != &pole && std::norm(twin.shape.dot(pole.shape)) >= kStableShape &&
            std::abs(twin.frequency_Hz - pole.frequency_Hz) <= kChance * difference_deviation(models, factors, twin, pole);
@@ -181,7 +115,7 @@ bool has_twin(const Identification& result, const ShiftModels& models, const Pol
 
 /// Twice the lower quartile of the deviations. Poles with larger ones are dropped from their mode.
 double largest_well_known(std::vector<double> deviations) {
-  std::sort(deviations.begin(), deviations.end());
+  std::ranges::sort(deviations);
   return 2.0 * deviations[deviations.size() / 4];
 }
 
@@ -239,26 +173,78 @@ void add_deviations(Identification& result, const Observability& observability, 
 /// poles or two standard deviations, and its damping ratio is at most two standard deviations above that of a removed line.
 void drop_lines(Identification& result, const std::vector<PeriodicLine>& lines, const PeriodicRule& rule) {
   constexpr double kFew = 2.0;  // [standard deviations] a difference of this size is chance
-  std::vector<bool> stays(result.modes.size(), true);
-  for (std::size_t m = 0; m < stays.size(); ++m) {
+  keep_modes_where(result, [&](std::size_t m) {
     const Cluster& mode = result.modes[m];
     const bool known = m < result.deviations.size();
     const double damping = known ? kFew * result.deviations[m].damping_ratio : 0.0;
     const double spread = rule.largest_spread * mode.frequency_Hz;
     const double reach = std::max(spread, known ? kFew * result.deviations[m].frequency_Hz : 0.0);
-    if (mode.damping_ratio >= rule.largest_leftover + std::max(damping, rule.largest_damping)) continue;
-    stays[m] = std::none_of(lines.begin(), lines.end(),
-                            [&](const PeriodicLine& line) { return std::abs(line.frequency_Hz - mode.frequency_Hz) < reach; });
-  }
-  keep_modes(result, stays);
+    if (mode.damping_ratio >= rule.largest_leftover + std::max(damping, rule.largest_damping)) return true;
+    return std::ranges::none_of(
+        lines, [&](const PeriodicLine& line) { return std::abs(line.frequency_Hz - mode.frequency_Hz) < reach; });
+  });
 }
 
 }  // namespace
 
+void keep_modes(Identification& result, const std::vector<bool>& stays) {
+  const std::size_t n = result.modes.size();
+  std::vector<int> renumbered(n, -1);
+  std::size_t kept = 0;
+  for (std::size_t m = 0; m < n; ++m) {
+    if (!stays[m]) continue;
+    renumbered[m] = static_cast<int>(kept);
+    if (kept != m) {
+      result.modes[kept] = result.modes[m];
+      if (m < result.deviations.size()) result.deviations[kept] = result.deviations[m];
+    }
+    ++kept;
+  }
+  result.modes.resize(kept);
+  result.deviations.resize(std::min(result.deviations.size(), kept));
+  for (DiagramPole& pole : result.diagram)
+    if (pole.mode >= 0) pole.mode = renumbered[static_cast<std::size_t>(pole.mode)];
+}
+
+void drop_undetermined(Identification& result, const IdentifyOptions& options, double seconds) {
+  keep_modes_where(result, [&](std::size_t m) { return is_settled(result.modes[m], result.deviations[m], options, seconds); });
+  if (options.selection != Selection::automatic) return;
+  drop_hidden_mixtures(result, options.automatic);
+  keep_modes_where(result, [&](std::size_t m) { return !is_shadow(result, m, is_stationary(options, seconds)); });
+}
+
+std::vector<std::string> drop_noise_of_a_decay(Identification& result, Eigen::Index samples) {
+  const double largest = std::sqrt(2.0 * std::log(static_cast<double>(samples)));
+  std::vector<std::string> dropped;
+  keep_modes_where(result, [&](std::size_t m) {
+    const double damping = result.modes[m].damping_ratio, deviation = result.deviations[m].damping_ratio;
+    const bool stays = damping > largest * deviation;
+    if (!stays)
+      dropped.push_back(fmt::format("{:.4g} Hz (damping ratio {:.2g} % with a deviation of {:.2g} %)",
+                                    result.modes[m].frequency_Hz, 100.0 * damping, 100.0 * deviation));
+    return stays;
+  });
+  return dropped;
+}
+
+void drop_better_than_random(Identification& result, double seconds) {
+  constexpr double kChance = 3.0;  // standard deviations of a deviation from n blocks, each 1/sqrt(2 (n - 1)) of it
+  std::vector<bool> stays;
+  for (std::size_t m = 0; m < result.modes.size(); ++m) {
+    const Cluster& mode = result.modes[m];
+    const double law = std::sqrt(mode.damping_ratio * mode.frequency_Hz / (2.0 * std::numbers::pi * seconds));
+    const auto blocks = static_cast<double>(result.deviations[m].factor.cols());
+    stays.push_back(blocks < 2.0 ||
+                    result.deviations[m].frequency_Hz >= (1.0 - kChance / std::sqrt(2.0 * (blocks - 1.0))) * law);
+  }
+  const auto n_random = std::count(stays.begin(), stays.end(), true);
+  if (2 * n_random > std::ssize(stays)) keep_modes(result, stays);
+}
+
 void mark_periodic(Identification& result, const std::vector<Samples>& records, double rate_Hz, const PeriodicRule& rule,
                    const std::vector<PeriodicLine>& known) {
   const auto is_known = [&](const PeriodicLine& line) {
-    return std::any_of(known.begin(), known.end(), [&](const PeriodicLine& other) {
+    return std::ranges::any_of(known, [&](const PeriodicLine& other) {
       return std::abs(other.frequency_Hz - line.frequency_Hz) < rule.largest_spread * line.frequency_Hz;
     });
   };

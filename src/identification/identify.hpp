@@ -96,6 +96,13 @@ void drop_lines_of_others(const std::vector<Identification*>& setups, const Peri
 
 /// Drops modes, with their deviations and marks in the diagram. @param stays  false: the mode is dropped
 void keep_modes(Identification& result, const std::vector<bool>& stays);
+/// Drops the modes for whose position `stays` is false. All are asked before the first is dropped.
+template <typename Stays>
+void keep_modes_where(Identification& result, const Stays& stays) {
+  std::vector<bool> kept;
+  for (std::size_t m = 0; m < result.modes.size(); ++m) kept.push_back(stays(m));
+  keep_modes(result, kept);
+}
 
 /// Drops the modes that the data do not determine, by the rules of the options. The automatic selection then drops mixtures of
 /// two other modes. Of two modes that the data cannot distinguish it drops the one with the larger standard deviation:

@@ -55,7 +55,7 @@ Observability observability_of(const Eigen::MatrixXd& lower_gram, const Sizes& s
 }
 
 const Pole* nearest(const std::vector<Pole>& candidates, const Pole& reference) {
-  const auto at = std::min_element(candidates.begin(), candidates.end(), [&](const Pole& p, const Pole& q) {
+  const auto at = std::ranges::min_element(candidates, [&](const Pole& p, const Pole& q) {
     return std::abs(p.eigenvalue - reference.eigenvalue) < std::abs(q.eigenvalue - reference.eigenvalue);
   });
   return at == candidates.end() ? nullptr : &*at;

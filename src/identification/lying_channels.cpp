@@ -10,6 +10,7 @@
 #include <optional>
 #include <utility>
 
+#include "core/lists.hpp"
 #include "core/statistics.hpp"
 
 namespace twindeck::identification {
@@ -62,12 +63,12 @@ double resolution(const Eigen::Ref<const Eigen::VectorXd>& x) {
   constexpr double whole = 0.05, none = std::numeric_limits<double>::infinity();  // largest distance from a whole number
   std::vector<double> values;
   std::copy_if(x.begin(), x.end(), std::back_inserter(values), [](double value) { return std::isfinite(value); });
-  std::sort(values.begin(), values.end());
+  std::ranges::sort(values);
   double step = none;
   for (std::size_t k = 1; k < values.size(); ++k)
     if (values[k] > values[k - 1]) step = std::min(step, values[k] - values[k - 1]);
   const auto off = [&](double value) { return std::abs(std::remainder((value - values.front()) / step, 1.0)) > whole; };
-  return std::any_of(values.begin(), values.end(), off) ? none : step;
+  return std::ranges::any_of(values, off) ? none : step;
 }
 
 /// A channel b = factor a + offset.
@@ -121,20 +122,17 @@ bool counts_rows(const Eigen::Ref<const Eigen::VectorXd>& x) {
 }
 
 double median_rms(const JudgedChannels& judged, const std::vector<ChannelQuality>& quality) {
-  std::vector<double> rms;
-  for (const Index c : judged.columns) rms.push_back(quality[static_cast<std::size_t>(c)].rms);
-  return upper_median(std::move(rms));
+  return upper_median(each_of(judged.columns, [&](Index c) { return quality[static_cast<std::size_t>(c)].rms; }));
 }
 
 void judge_motion(const Samples& raw, const JudgedChannels& judged, std::vector<ChannelQuality>& quality) {
   const double usual = median_rms(judged, quality);
-  std::vector<Run> runs;
-  for (const Index c : judged.columns) runs.push_back(longest_run(raw.col(c)));
+  const auto runs = each_of(judged.columns, [&](Index c) { return longest_run(raw.col(c)); });
   const auto stuck = [&](const Run& run) {
     const bool held = !judged.may_rest && static_cast<double>(run.length) > kAlone * static_cast<double>(run.usual);
     return static_cast<double>(run.length - 1) > (held ? kHeld : kStuck) * static_cast<double>(raw.rows());
   };
-  const bool most = 2 * std::count_if(runs.begin(), runs.end(), stuck) > std::ssize(runs);
+  const bool most = 2 * std::ranges::count_if(runs, stuck) > std::ssize(runs);
   for (std::size_t k = 0; k < judged.columns.size(); ++k) {
     ChannelQuality& q = quality[static_cast<std::size_t>(judged.columns[k])];
     if (q.dead) {

@@ -94,7 +94,7 @@ std::vector<std::vector<Candidate>> groups(const std::vector<SetupModes>& setups
         pairs.push_back({unlikelihood(shapes, df_Hz, deviation_Hz, p.frequency_Hz), a, b});
     }
   }
-  std::stable_sort(pairs.begin(), pairs.end(), [](const Pair& x, const Pair& y) { return x.distance < y.distance; });
+  std::ranges::stable_sort(pairs, [](const Pair& x, const Pair& y) { return x.distance < y.distance; });
   std::vector<std::size_t> group(all.size());
   std::iota(group.begin(), group.end(), 0U);
   std::vector<std::set<std::size_t>> present(all.size());
@@ -120,7 +120,7 @@ struct Average {
 Average average(const Eigen::ArrayXd& values, Eigen::ArrayXd variances) {
   // A variance from few blocks may be tiny by chance. None counts for less than a hundredth of the median.
   Eigen::ArrayXd sorted = variances;
-  std::sort(sorted.begin(), sorted.end());
+  std::ranges::sort(sorted);
   variances = variances.max(0.01 * sorted[sorted.size() / 2]).max(1e-300);
   const Eigen::ArrayXd w = 1.0 / variances;
   const auto n = static_cast<double>(values.size());
@@ -137,7 +137,7 @@ Average average(const Eigen::ArrayXd& values, Eigen::ArrayXd variances) {
 }
 
 Index position(const SetupModes& setup, Index channel) {
-  const auto at = std::find(setup.channels.begin(), setup.channels.end(), channel);
+  const auto at = std::ranges::find(setup.channels, channel);
   return at == setup.channels.end() ? -1 : static_cast<Index>(at - setup.channels.begin());
 }
 

@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "core/error.hpp"
+#include "core/lists.hpp"
 #include "identification/ssi_cov.hpp"
 #include "identification/state_space.hpp"
 #include "linalg/dense.hpp"
@@ -61,7 +62,7 @@ JointSetups side_by_side(const std::vector<SetupCorrelations>& setups, Index blo
     Moving moving;
     std::vector<Index> outputs;
     for (Index i = 0; i < l; ++i) {
-      if (std::find(setup.references.begin(), setup.references.end(), i) != setup.references.end()) continue;
+      if (contains(setup.references, i)) continue;
       outputs.push_back(i);
       moving.channels.push_back(setup.channels[static_cast<std::size_t>(i)]);
     }
@@ -96,35 +97,6 @@ Observability merged_observability(const JointSetups& all, const LeadingSvd& svd
   return {std::move(rows), Eigen::VectorXd::Ones(order), {}, l};
 }
 
-}  // namespace
-
-std::vector<std::vector<Pole>> merge_preger(const std::vector<SetupCorrelations>& setups, Index n_channels, Index block_rows,
-                                            const std::vector<int>& orders, double rate_Hz) {
-  TWINDECK_ASSERT(!setups.empty() && !orders.empty());
-  const Index r = static_cast<Index>(setups.front().references.size()), n_max = orders.back();
-  if (n_max > (block_rows - 1) * r)
-    throw InputError({"", 0, "maximum_order"},
-                     fmt::format("is {}, but {} block rows of {} references carry at most {} when setups are merged before "
-                                 "identification",
-                                 n_max, block_rows, r, (block_rows - 1) * r),
-                     "raise block_rows or lower maximum_order");
-  const JointSetups all = side_by_side(setups, block_rows);
-  const LeadingSvd svd = leading_svd(all.joint, n_max);
-  std::vector<std::vector<Pole>> poles;
-  for (const int order : orders) {
-    std::vector<Pole> found = poles_of_orders(merged_observability(all, svd, order), {order}, rate_Hz).front();
-    for (Pole& pole : found) {
-      Eigen::VectorXcd shape = Eigen::VectorXcd::Zero(n_channels);
-      for (std::size_t i = 0; i < all.row_channel.size(); ++i) shape[all.row_channel[i]] = pole.shape[static_cast<Index>(i)];
-      pole.shape = normalised_shape(shape);
-    }
-    poles.push_back(std::move(found));
-  }
-  return poles;
-}
-
-namespace {
-
 constexpr double kSameMode = 0.02;        ///< [-] of the frequency; two mergings of the same records differ by far less
 constexpr double kSamePole = 0.005;       ///< [-] of the frequency; for poles of single orders that were not selected
 constexpr std::size_t kFewestOrders = 3;  ///< [-] a pole found at fewer orders does not count
@@ -154,12 +126,37 @@ void set_nearest_poles(MergingCheck& check, const Identification& preger, const 
     dampings.push_back(pole->damping_ratio);
     shape += pole->shape * std::polar(1.0, std::arg(pole->shape.dot(reference->shape)));
   }
-  std::sort(frequencies.begin(), frequencies.end());
-  std::sort(dampings.begin(), dampings.end());
+  std::ranges::sort(frequencies);
+  std::ranges::sort(dampings);
   set(check, frequencies[frequencies.size() / 2], dampings[dampings.size() / 2], shape);
 }
 
 }  // namespace
+
+std::vector<std::vector<Pole>> merge_preger(const std::vector<SetupCorrelations>& setups, Index n_channels, Index block_rows,
+                                            const std::vector<int>& orders, double rate_Hz) {
+  TWINDECK_ASSERT(!setups.empty() && !orders.empty());
+  const Index r = static_cast<Index>(setups.front().references.size()), n_max = orders.back();
+  if (n_max > (block_rows - 1) * r)
+    throw InputError({"", 0, "maximum_order"},
+                     fmt::format("is {}, but {} block rows of {} references carry at most {} when setups are merged before "
+                                 "identification",
+                                 n_max, block_rows, r, (block_rows - 1) * r),
+                     "raise block_rows or lower maximum_order");
+  const JointSetups all = side_by_side(setups, block_rows);
+  const LeadingSvd svd = leading_svd(all.joint, n_max);
+  std::vector<std::vector<Pole>> poles;
+  for (const int order : orders) {
+    std::vector<Pole> found = poles_of_orders(merged_observability(all, svd, order), {order}, rate_Hz).front();
+    for (Pole& pole : found) {
+      Eigen::VectorXcd shape = Eigen::VectorXcd::Zero(n_channels);
+      for (std::size_t i = 0; i < all.row_channel.size(); ++i) shape[all.row_channel[i]] = pole.shape[static_cast<Index>(i)];
+      pole.shape = normalised_shape(shape);
+    }
+    poles.push_back(std::move(found));
+  }
+  return poles;
+}
 
 double known_mac(const Eigen::VectorXcd& a, const Eigen::VectorXcd& b) {
   std::complex<double> product = 0.0;

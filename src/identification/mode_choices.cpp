@@ -90,8 +90,8 @@ void take_choices(Identification& found, const std::vector<ModeChoice>& choices,
 
 void require_poles(const std::vector<ModeChoice>& choices, const std::vector<ConditionResult>& results) {
   for (const ModeChoice& choice : choices) {
-    const bool has = std::any_of(results.begin(), results.end(), [&](const ConditionResult& result) {
-      return std::any_of(result.setups.begin(), result.setups.end(), [&](const SetupResult& setup) {
+    const bool has = std::ranges::any_of(results, [&](const ConditionResult& result) {
+      return std::ranges::any_of(result.setups, [&](const SetupResult& setup) {
         return setup.conditioned.setup == choice.setup && pole_of_choice(choice, setup.found.diagram);
       });
     });

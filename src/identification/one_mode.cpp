@@ -54,7 +54,7 @@ MergedMode merged(MergedMode sure, MergedMode other) {
   sure.deviation.frequency_Hz = std::hypot(own.frequency_Hz, f_apart);
   sure.deviation.damping_ratio = std::hypot(own.damping_ratio, zeta_apart);
   sure.members.insert(sure.members.end(), other.members.begin(), other.members.end());
-  std::sort(sure.members.begin(), sure.members.end());
+  std::ranges::sort(sure.members);
   return sure;
 }
 

@@ -24,7 +24,7 @@ std::vector<PeriodicLine> undamped_poles(const std::vector<std::vector<Pole>>& p
         undamped.push_back(&pole);
     }
   }
-  std::sort(undamped.begin(), undamped.end(), [](const Pole* p, const Pole* q) { return p->frequency_Hz < q->frequency_Hz; });
+  std::ranges::sort(undamped, [](const Pole* p, const Pole* q) { return p->frequency_Hz < q->frequency_Hz; });
   std::vector<PeriodicLine> lines;
   for (std::size_t first = 0, end = 0; first < undamped.size(); first = end) {
     for (end = first + 1; end < undamped.size(); ++end)

@@ -8,6 +8,7 @@
 #include <numbers>
 
 #include "core/error.hpp"
+#include "core/lists.hpp"
 
 namespace twindeck::identification {
 
@@ -22,19 +23,16 @@ constexpr double kShareOfCircle = 0.9;  ///< [-] of the circle that the band tak
 /// Sums over the lines of z^d, z^d H_o and z^d H^H H for d = -p … p, from which all normal equations are made.
 struct Moments {
   Index most = 0, n_inputs = 0;
-  Eigen::VectorXcd one;            ///< (2 most + 1)
-  std::vector<MatrixXcd> outputs;  ///< one an output, (2 most + 1 × n_inputs)
-  std::vector<MatrixXcd> squares;  ///< [d + most] (n_inputs × n_inputs)
+  Eigen::VectorXcd one = {};            ///< (2 most + 1)
+  std::vector<MatrixXcd> outputs = {};  ///< one an output, (2 most + 1 × n_inputs)
+  std::vector<MatrixXcd> squares = {};  ///< [d + most] (n_inputs × n_inputs)
 
   [[nodiscard]] std::complex<double> power(Index d) const { return one[d + most]; }
 };
 
 Moments moments_of(const Eigen::VectorXcd& z, const MatrixXcd& values, Index n_inputs, Index most) {
-  Moments m{most,
-            n_inputs,
-            {},
-            {},
-            std::vector<MatrixXcd>(static_cast<std::size_t>(2 * most + 1), MatrixXcd::Zero(n_inputs, n_inputs))};
+  Moments m{.most = most, .n_inputs = n_inputs};
+  m.squares.assign(static_cast<std::size_t>(2 * most + 1), MatrixXcd::Zero(n_inputs, n_inputs));
   MatrixXcd powers(z.size(), 2 * most + 1);
   powers.col(most).setOnes();
   for (Index d = 1; d <= most; ++d) {
@@ -144,9 +142,7 @@ std::vector<std::vector<Pole>> plscf_poles(const Eigen::VectorXd& frequency_Hz, 
   Eigen::VectorXcd z(frequency_Hz.size());
   for (Index k = 0; k < z.size(); ++k) z[k] = std::polar(1.0, (2.0 * pi * frequency_Hz[k] - first) * step);
   const Moments moments = moments_of(z, values, n_inputs, orders.back() / 2);
-  std::vector<std::vector<Pole>> poles;
-  for (const int order : orders) poles.push_back(poles_of_order(moments, order, first, step));
-  return poles;
+  return each_of(orders, [&](int order) { return poles_of_order(moments, order, first, step); });
 }
 
 }  // namespace twindeck::identification

@@ -76,24 +76,6 @@ bool stands_alone(const Distance& distance, Index t) {
   return end - begin <= kLongest && is_quiet(distance, begin - 1, -1, large) && is_quiet(distance, end, 1, large);
 }
 
-}  // namespace
-
-std::optional<LoneSample> lone_sample(const Eigen::Ref<const Eigen::VectorXd>& x) {
-  if (x.size() < 2 * kAround + kLongest) return {};
-  const Distance distance(x);
-  std::optional<LoneSample> found;
-  double least = kLeastDeviations * distance.deviation();
-  for (Index t = 0; t < x.size(); ++t) {
-    const double d = distance.at(t);
-    if (!(d > least) || !std::isfinite(d) || !stands_alone(distance, t)) continue;
-    found = LoneSample{t, x[t], d / distance.deviation()};
-    least = d;
-  }
-  return found;
-}
-
-namespace {
-
 ChannelQuality quality_of(const Eigen::Ref<const Eigen::VectorXd>& x) {
   ChannelQuality q;
   q.samples = x.size();
@@ -133,7 +115,45 @@ ChannelQuality quality_of(const Eigen::Ref<const Eigen::VectorXd>& x) {
   return q;
 }
 
+constexpr long kRun = 3;             // samples in a row at an extreme value; no motion does that
+constexpr long kFewestAtRail = 10;   // fewer samples at the extreme may be chance: 0.03 % of a short record of 30,000 samples
+constexpr std::size_t kNearby = 10;  // number of values next to the extreme one for comparison
+constexpr double kPile = 5.0;        // times the samples of those values; the crest of a sine has half as many
+constexpr double kRounding = 1e-9;   // [-] of the range: values closer than this are one value
+
+/// Whether the extreme value has far more samples than the values next to it. @param sign  1: the largest, -1: the smallest
+bool is_rail(const Eigen::Ref<const Eigen::VectorXd>& x, double extreme, double sign, double range) {
+  std::vector<double> below;
+  for (Index t = 0; t < x.size(); ++t)
+    if (std::isfinite(x[t])) below.push_back(sign * (extreme - x[t]));
+  std::ranges::sort(below);
+  std::vector<long> samples;  // of the extreme value and of the next ones
+  auto from = below.begin();
+  while (from != below.end() && samples.size() <= kNearby) {
+    const auto to = std::upper_bound(from, below.end(), *from + kRounding * range);
+    samples.push_back(static_cast<long>(to - from));
+    from = to;
+  }
+  if (from == below.end()) return false;  // too few values: the other end is among them
+  return static_cast<double>(samples.front()) >
+         kPile * static_cast<double>(*std::max_element(samples.begin() + 1, samples.end()));
+}
+
 }  // namespace
+
+std::optional<LoneSample> lone_sample(const Eigen::Ref<const Eigen::VectorXd>& x) {
+  if (x.size() < 2 * kAround + kLongest) return {};
+  const Distance distance(x);
+  std::optional<LoneSample> found;
+  double least = kLeastDeviations * distance.deviation();
+  for (Index t = 0; t < x.size(); ++t) {
+    const double d = distance.at(t);
+    if (!(d > least) || !std::isfinite(d) || !stands_alone(distance, t)) continue;
+    found = LoneSample{t, x[t], d / distance.deviation()};
+    least = d;
+  }
+  return found;
+}
 
 std::vector<ChannelQuality> channel_quality(const Samples& data, const std::vector<std::string>& channels,
                                             const std::string& setup, const std::string& record) {
@@ -173,34 +193,6 @@ long fill_gaps(Eigen::MatrixXd& data, const std::vector<std::string>& channels, 
   }
   return filled;
 }
-
-namespace {
-
-constexpr long kRun = 3;             // samples in a row at an extreme value; no motion does that
-constexpr long kFewestAtRail = 10;   // fewer samples at the extreme may be chance: 0.03 % of a short record of 30,000 samples
-constexpr std::size_t kNearby = 10;  // number of values next to the extreme one for comparison
-constexpr double kPile = 5.0;        // times the samples of those values; the crest of a sine has half as many
-constexpr double kRounding = 1e-9;   // [-] of the range: values closer than this are one value
-
-/// Whether the extreme value has far more samples than the values next to it. @param sign  1: the largest, -1: the smallest
-bool is_rail(const Eigen::Ref<const Eigen::VectorXd>& x, double extreme, double sign, double range) {
-  std::vector<double> below;
-  for (Index t = 0; t < x.size(); ++t)
-    if (std::isfinite(x[t])) below.push_back(sign * (extreme - x[t]));
-  std::sort(below.begin(), below.end());
-  std::vector<long> samples;  // of the extreme value and of the next ones
-  auto from = below.begin();
-  while (from != below.end() && samples.size() <= kNearby) {
-    const auto to = std::upper_bound(from, below.end(), *from + kRounding * range);
-    samples.push_back(static_cast<long>(to - from));
-    from = to;
-  }
-  if (from == below.end()) return false;  // too few values: the other end is among them
-  return static_cast<double>(samples.front()) >
-         kPile * static_cast<double>(*std::max_element(samples.begin() + 1, samples.end()));
-}
-
-}  // namespace
 
 long clipped_samples(const Eigen::Ref<const Eigen::VectorXd>& x, double lowest, double highest) {
   const auto at = [&](double extreme) { return static_cast<long>((x.array() == extreme).count()); };

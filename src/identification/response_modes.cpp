@@ -44,9 +44,15 @@ void cut_to_band(FrequencyResponses& responses, const IdentificationSettings& co
   responses.frequency_Hz = Eigen::VectorXd(f.segment(first, n));
 }
 
-Eigen::MatrixXcd scaled_functions(const FrequencyResponses& responses, Eigen::VectorXd& scale) {
+/// The functions in units of their channels' scales.
+struct ScaledFunctions {
+  Eigen::MatrixXcd values;
+  Eigen::VectorXd scale;
+};
+
+ScaledFunctions scaled_functions(const FrequencyResponses& responses) {
   const auto n_others = std::ssize(responses.others);
-  scale = Eigen::VectorXd::Zero(std::ssize(responses.channels));
+  Eigen::VectorXd scale = Eigen::VectorXd::Zero(std::ssize(responses.channels));
   Eigen::MatrixXcd values = responses.values;
   // The other side first: its sensors may differ in unit. Each channel then gets unit RMS.
   for (Index i = 0; i < n_others; ++i) {
@@ -60,7 +66,7 @@ Eigen::MatrixXcd scaled_functions(const FrequencyResponses& responses, Eigen::Ve
     scale[o] = own.norm() / std::sqrt(static_cast<double>(own.size()));
     own /= scale[o];
   }
-  return values;
+  return {values, scale};
 }
 
 /// Even orders, as far as the lines and the size of the companion matrix carry them.
@@ -116,16 +122,15 @@ Conditioned condition_responses(const records::Campaign& campaign, const records
                                 const IdentificationSettings& config) {
   records::RecordGroup used = group;
   std::vector<std::string> known;
-  for (const records::CampaignRecord& record : group.records)
-    known.insert(known.end(), record.channels.begin(), record.channels.end());
-  require_known(config.exclude, known, "exclude");
   for (records::CampaignRecord& record : used.records) {
-    for (std::size_t c = record.channels.size(); c-- > 0;) {
-      if (!contains(config.exclude, record.channels[c])) continue;
-      record.channels.erase(record.channels.begin() + static_cast<std::ptrdiff_t>(c));
-      if (!record.columns.empty()) record.columns.erase(record.columns.begin() + static_cast<std::ptrdiff_t>(c));
+    known.insert(known.end(), record.channels.begin(), record.channels.end());
+    for (std::ptrdiff_t c = std::ssize(record.channels); c-- > 0;) {
+      if (!contains(config.exclude, record.channels[static_cast<std::size_t>(c)])) continue;
+      record.channels.erase(record.channels.begin() + c);
+      if (!record.columns.empty()) record.columns.erase(record.columns.begin() + c);
     }
   }
+  require_known(config.exclude, known, "exclude");
   std::erase_if(used.records, [](const records::CampaignRecord& record) { return record.channels.empty(); });
   if (used.records.empty()) throw InputError({"", 0, "exclude"}, "leaves no channel", "leave out fewer");
   Conditioned conditioned;
@@ -157,19 +162,14 @@ Identification identify_responses(const Conditioned& conditioned, const Identifi
   IdentifyOptions options = own.options(4.0 * last_Hz, conditioned.channels);
   options.limits.lowest_Hz = first_Hz;
   options.limits.highest_Hz = last_Hz;
-  Eigen::VectorXd scale;
-  const ResponseData data{responses.frequency_Hz, scaled_functions(responses, scale), n_others, derivative(responses.quantity)};
+  const auto [values, scale] = scaled_functions(responses);
+  const ResponseData data{responses.frequency_Hz, values, n_others, derivative(responses.quantity)};
   const std::vector<int> orders = response_orders(options, lines, n_others);
   Identification found = modes_of_poles(plscf_poles(data.frequency_Hz, data.values, n_others, orders), orders, options);
   while (!found.modes.empty()) {
-    std::vector<std::complex<double>> poles;
-    for (const Cluster& mode : found.modes)
-      poles.push_back(2.0 * std::numbers::pi * mode.frequency_Hz *
-                      std::complex<double>(-mode.damping_ratio, std::sqrt(1.0 - mode.damping_ratio * mode.damping_ratio)));
-    const Index worst = take_fit(found, fit_modes(data, std::move(poles)), options, lines);
-    std::vector<bool> stays(found.modes.size(), true);
-    if (worst >= 0) stays[static_cast<std::size_t>(worst)] = false;
-    keep_modes(found, stays);
+    const auto pole_of = [](const Cluster& mode) { return eigenvalue_of(mode.frequency_Hz, mode.damping_ratio); };
+    const Index worst = take_fit(found, fit_modes(data, each_of(found.modes, pole_of)), options, lines);
+    keep_modes_where(found, [&](std::size_t m) { return static_cast<Index>(m) != worst; });
     if (worst < 0) break;
   }
   drop_undetermined(found, options, 0.0);
@@ -177,11 +177,7 @@ Identification identify_responses(const Conditioned& conditioned, const Identifi
   return found;
 }
 
-Eigen::VectorXd response_scale(const FrequencyResponses& responses) {
-  Eigen::VectorXd scale;
-  static_cast<void>(scaled_functions(responses, scale));
-  return scale;
-}
+Eigen::VectorXd response_scale(const FrequencyResponses& responses) { return scaled_functions(responses).scale; }
 
 SingularSpectra response_spectra(const FrequencyResponses& responses) {
   const Eigen::VectorXd& f = responses.frequency_Hz;
@@ -189,8 +185,7 @@ SingularSpectra response_spectra(const FrequencyResponses& responses) {
   constexpr double even = 1e-3;  // of the distance between two lines
   const Eigen::VectorXd step = f.tail(n - 1) - f.head(n - 1);
   if (step.maxCoeff() - step.minCoeff() > even * step.mean()) return {};
-  Eigen::VectorXd scale;
-  const Eigen::MatrixXcd values = scaled_functions(responses, scale);
+  const Eigen::MatrixXcd values = scaled_functions(responses).values;
   SingularSpectra spectra{f, Eigen::MatrixXd(n, std::min<Index>({3, n_channels, n_others})), Eigen::MatrixXcd(n_channels, n)};
   for (Index k = 0; k < n; ++k) {
     const Eigen::VectorXcd line = values.row(k);

@@ -21,14 +21,18 @@ Eigen::MatrixXd block_toeplitz(const std::vector<Eigen::MatrixXd>& lags, Index b
   return toeplitz;
 }
 
-Observability ssi_cov(const std::vector<Eigen::MatrixXd>& lags, Index block_rows, Index n_outputs, Index n_max) {
-  const Eigen::MatrixXd toeplitz = block_toeplitz(lags, block_rows);
-  const Index most = std::min(toeplitz.rows() - n_outputs, toeplitz.cols());
+void require_order(Index n_max, Index block_rows, Index n_outputs, Index n_references) {
+  const Index most = std::min(n_outputs * (block_rows - 1), n_references * block_rows);
   if (n_max > most)
     throw InputError({"", 0, "maximum_order"},
                      fmt::format("is {}, but {} block rows of {} channels with {} references carry at most {}", n_max,
-                                 block_rows, n_outputs, lags.front().cols(), most),
+                                 block_rows, n_outputs, n_references, most),
                      "raise block_rows or lower maximum_order");
+}
+
+Observability ssi_cov(const std::vector<Eigen::MatrixXd>& lags, Index block_rows, Index n_outputs, Index n_max) {
+  const Eigen::MatrixXd toeplitz = block_toeplitz(lags, block_rows);
+  require_order(n_max, block_rows, n_outputs, lags.front().cols());
   LeadingSvd svd = leading_svd(toeplitz, n_max);
   return {std::move(svd.u), std::move(svd.values), std::move(svd.v), n_outputs};
 }

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "core/error.hpp"
+#include "identification/ssi_cov.hpp"
 #include "linalg/dense.hpp"
 
 namespace twindeck::identification {
@@ -96,12 +97,8 @@ DataDriven ssi_data(const std::vector<Eigen::MatrixXd>& grams, double samples, I
   Eigen::MatrixXd gram = grams.front();
   for (std::size_t i = 1; i < grams.size(); ++i) gram += grams[i];
   gram /= samples;
-  const Index past = n_references * block_rows, future = n_outputs * block_rows, most = std::min(future - n_outputs, past);
-  if (n_max > most)
-    throw InputError({"", 0, "maximum_order"},
-                     fmt::format("is {}, but {} block rows of {} channels with {} references carry at most {}", n_max,
-                                 block_rows, n_outputs, n_references, most),
-                     "raise block_rows or lower maximum_order");
+  const Index past = n_references * block_rows, future = n_outputs * block_rows;
+  require_order(n_max, block_rows, n_outputs, n_references);
   DataDriven found;
   found.samples = samples;
   // The anti-aliasing filter leaves the past nearly singular. Adding 1e-12 of its mean power keeps the factor real.

@@ -9,12 +9,18 @@
 #include <numbers>
 
 #include "core/error.hpp"
+#include "core/lists.hpp"
 #include "linalg/canonical_basis.hpp"
 #include "linalg/dense.hpp"
 
 namespace twindeck::identification {
 
 using Eigen::Index;
+
+std::complex<double> eigenvalue_of(double frequency_Hz, double damping_ratio) {
+  return 2.0 * std::numbers::pi * frequency_Hz *
+         std::complex<double>(-damping_ratio, std::sqrt(1.0 - damping_ratio * damping_ratio));
+}
 
 Eigen::VectorXcd normalised_shape(const Eigen::VectorXcd& shape) {
   const double length = shape.norm();
@@ -45,53 +51,13 @@ void find_poles(OrderModel& model, double rate_Hz) {
   model.left = model.right.partialPivLu().inverse();
   for (Index i = 0; i < model.mu.size(); ++i)
     if (model.mu[i].imag() > 0.0) model.kept.push_back(i);
-  std::sort(model.kept.begin(), model.kept.end(),
-            [&](Index i, Index j) { return std::abs(std::log(model.mu[i])) < std::abs(std::log(model.mu[j])); });
+  std::ranges::sort(model.kept,
+                    [&](Index i, Index j) { return std::abs(std::log(model.mu[i])) < std::abs(std::log(model.mu[j])); });
   for (const Index i : model.kept) {
     const Eigen::VectorXcd phi = model.right.col(i);
     model.poles.push_back(pole_of(model.mu[i], model.c * phi, model.order, rate_Hz));
   }
 }
-
-}  // namespace
-
-ShiftModels shift_models(const Observability& observability, const std::vector<int>& orders, double rate_Hz) {
-  const Index rows = observability.left.rows() - observability.n_outputs;
-  const Index n_max = orders.empty() ? 0 : *std::max_element(orders.begin(), orders.end());
-  TWINDECK_ASSERT(n_max <= observability.left.cols() && n_max <= rows);
-  const Eigen::MatrixXd o =
-      observability.left.leftCols(n_max) * observability.singular_values.head(n_max).cwiseSqrt().asDiagonal();
-  const Eigen::HouseholderQR<Eigen::MatrixXd> qr(o.topRows(rows));
-  ShiftModels models;
-  models.q = qr.householderQ() * Eigen::MatrixXd::Identity(rows, n_max);
-  models.r = qr.matrixQR().topRows(n_max).triangularView<Eigen::Upper>();
-  models.rotated = linalg::product(models.q, o.bottomRows(rows), true);
-  models.cross = linalg::product(models.rotated, models.r, true);
-  models.rate_Hz = rate_Hz;
-  for (const int order : orders) {
-    OrderModel model;
-    model.order = order;
-    model.a =
-        models.r.topLeftCorner(order, order).triangularView<Eigen::Upper>().solve(models.rotated.topLeftCorner(order, order));
-    model.c = o.topLeftCorner(observability.n_outputs, order);
-    find_poles(model, rate_Hz);
-    models.orders.push_back(std::move(model));
-  }
-  return models;
-}
-
-std::vector<std::vector<Pole>> poles_of(const ShiftModels& models) {
-  std::vector<std::vector<Pole>> poles;
-  for (const OrderModel& model : models.orders) poles.push_back(model.poles);
-  return poles;
-}
-
-std::vector<std::vector<Pole>> poles_of_orders(const Observability& observability, const std::vector<int>& orders,
-                                               double rate_Hz) {
-  return poles_of(shift_models(observability, orders, rate_Hz));
-}
-
-namespace {
 
 Eigen::MatrixXd thin_q(const Eigen::MatrixXd& x) {
   const Eigen::HouseholderQR<Eigen::MatrixXd> qr(x);
@@ -116,6 +82,38 @@ LeadingSvd by_squares(const Eigen::MatrixXd& a, Index n) {
 }
 
 }  // namespace
+
+ShiftModels shift_models(const Observability& observability, const std::vector<int>& orders, double rate_Hz) {
+  const Index rows = observability.left.rows() - observability.n_outputs;
+  const Index n_max = orders.empty() ? 0 : *std::ranges::max_element(orders);
+  TWINDECK_ASSERT(n_max <= observability.left.cols() && n_max <= rows);
+  const Eigen::MatrixXd o =
+      observability.left.leftCols(n_max) * observability.singular_values.head(n_max).cwiseSqrt().asDiagonal();
+  const Eigen::HouseholderQR<Eigen::MatrixXd> qr(o.topRows(rows));
+  ShiftModels models;
+  models.q = qr.householderQ() * Eigen::MatrixXd::Identity(rows, n_max);
+  models.r = qr.matrixQR().topRows(n_max).triangularView<Eigen::Upper>();
+  models.rotated = linalg::product(models.q, o.bottomRows(rows), true);
+  models.cross = linalg::product(models.rotated, models.r, true);
+  models.rate_Hz = rate_Hz;
+  for (const int order : orders) {
+    OrderModel model;
+    model.order = order;
+    model.a =
+        models.r.topLeftCorner(order, order).triangularView<Eigen::Upper>().solve(models.rotated.topLeftCorner(order, order));
+    model.c = o.topLeftCorner(observability.n_outputs, order);
+    find_poles(model, rate_Hz);
+    models.orders.push_back(std::move(model));
+  }
+  return models;
+}
+
+std::vector<std::vector<Pole>> poles_of(const ShiftModels& models) { return each_of(models.orders, &OrderModel::poles); }
+
+std::vector<std::vector<Pole>> poles_of_orders(const Observability& observability, const std::vector<int>& orders,
+                                               double rate_Hz) {
+  return poles_of(shift_models(observability, orders, rate_Hz));
+}
 
 LeadingSvd leading_svd(const Eigen::MatrixXd& a, Index n) {
   const Index smaller = std::min(a.rows(), a.cols());

@@ -57,6 +57,9 @@ struct ShiftModels {
 [[nodiscard]] std::vector<std::vector<Pole>> poles_of_orders(const Observability& observability, const std::vector<int>& orders,
                                                              double rate_Hz);
 
+/// The pole of a mode: lambda = omega (-zeta + i sqrt(1 - zeta²)) [rad/s].
+[[nodiscard]] std::complex<double> eigenvalue_of(double frequency_Hz, double damping_ratio);
+
 /// Unit norm, phase such that the sum of squares of the entries is real and positive; the sign makes the largest entry's real
 /// part positive. Zero stays zero.
 [[nodiscard]] Eigen::VectorXcd normalised_shape(const Eigen::VectorXcd& shape);

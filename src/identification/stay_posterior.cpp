@@ -68,18 +68,6 @@ double odd_root(double low, double high, const TensionedBeam& beam) {
   return root;
 }
 
-}  // namespace
-
-double frequency_ratio(int number, const TensionedBeam& beam) {
-  TWINDECK_ASSERT(number >= 1 && beam.xi > 0.0 && beam.lambda_squared >= 0.0 && beam.fixity >= 0.0 && beam.fixity <= 1.0);
-  double a = wave_number(number, beam);
-  if (number % 2 == 0 || beam.lambda_squared == 0.0) return ratio_at(a, beam.xi);
-  // The root moves up from the beam without sag as lambda² grows, and stays below the next pole of the tangent.
-  return ratio_at(odd_root(a * (1.0 + 1e-12), (number + 2) * pi, beam), beam.xi);
-}
-
-namespace {
-
 /// Bounds of the priors: from a short hanger that is nearly a beam to a string. Irvine's crossover lies at 4 pi² = 39.
 constexpr double kLeastXi = 4.0, kMostXi = 4000.0, kMostLambdaSquared = 60.0;
 /// [-] relative scatter of a harmonic beyond its stated deviation, because mass and section vary along a cable.
@@ -265,6 +253,14 @@ std::vector<Piece> cut_finely(const Likelihood& likelihood, double fixity, Effor
 }
 
 }  // namespace
+
+double frequency_ratio(int number, const TensionedBeam& beam) {
+  TWINDECK_ASSERT(number >= 1 && beam.xi > 0.0 && beam.lambda_squared >= 0.0 && beam.fixity >= 0.0 && beam.fixity <= 1.0);
+  double a = wave_number(number, beam);
+  if (number % 2 == 0 || beam.lambda_squared == 0.0) return ratio_at(a, beam.xi);
+  // The root moves up from the beam without sag as lambda² grows, and stays below the next pole of the tangent.
+  return ratio_at(odd_root(a * (1.0 + 1e-12), (number + 2) * pi, beam), beam.xi);
+}
 
 StayPosterior stay_posterior(const std::vector<Harmonic>& harmonics, const StaySection& section, Effort effort) {
   check_harmonics(harmonics);

@@ -9,7 +9,7 @@ namespace twindeck::identification {
 namespace {
 
 const StaySettings* settings_of(const Conditioned& conditioned, const IdentificationSettings& config) {
-  const auto at = std::find_if(config.stays.begin(), config.stays.end(), [&](const StaySettings& stay) {
+  const auto at = std::ranges::find_if(config.stays, [&](const StaySettings& stay) {
     return stay.name == conditioned.setup || stay.name == conditioned.channels.front().point ||
            stay.name == conditioned.channels.front().name;
   });

@@ -8,6 +8,7 @@
 
 #include "core/distributions.hpp"
 #include "core/error.hpp"
+#include "core/lists.hpp"
 
 namespace twindeck::identification {
 namespace {
@@ -200,8 +201,7 @@ std::vector<Explained> compared(const std::vector<Harmonic>& frequencies, const 
                                 double highest_Hz) {
   constexpr double kReach = 0.05;        // of the spacing
   constexpr double kLeastReach = 0.004;  // of the frequency
-  std::vector<double> values;
-  for (const Harmonic& f : frequencies) values.push_back(f.frequency_Hz);
+  const std::vector<double> values = each_of(frequencies, &Harmonic::frequency_Hz);
   std::set<Numbers> done;
   std::vector<Explained> numberings;
   for (Numbers numbers : candidate_numbers(values, lowest_Hz, highest_Hz)) {
@@ -220,32 +220,6 @@ void most_probable_first(std::vector<Explained>& numberings) {
                 [&](const Explained& e) { return e.log_probability < numberings.front().log_probability - kWorthComparing; });
 }
 
-}  // namespace
-
-StayFit fit_stay(const std::vector<Harmonic>& frequencies, const StaySection& section, double level, double lowest_Hz,
-                 double highest_Hz) {
-  if (frequencies.size() < 2) return {};
-  std::vector<Explained> numberings = compared(frequencies, section, lowest_Hz, highest_Hz);
-  if (numberings.empty()) return {};
-  most_probable_first(numberings);
-  constexpr std::size_t kMost = 3;
-  if (numberings.size() > kMost) numberings.resize(kMost);
-  for (Explained& e : numberings) e = explain(frequencies, e.numbers, section, Effort::full);
-  most_probable_first(numberings);
-  return fit_of(numberings, section, level);
-}
-
-StayFit fit_numbered(const std::vector<Harmonic>& harmonics, const StaySection& section, double level) {
-  if (harmonics.size() < 2)
-    throw InputError({"", 0, "stay"}, fmt::format("has {} harmonics, expected at least two", harmonics.size()),
-                     "identify higher modes of the stay");
-  Numbers numbers;
-  for (std::size_t i = 0; i < harmonics.size(); ++i) numbers[harmonics[i].number] = i;
-  return fit_of({explain(harmonics, numbers, section, Effort::full)}, section, level);
-}
-
-namespace {
-
 constexpr int kHighest = 16;          ///< highest harmonic in the search
 constexpr int kHighestThrough = 12;   ///< highest number of the frequency that fixes c
 constexpr double kCoarseReach = 0.2;  ///< [-] of the spacing of harmonics, the resolution of the grid
@@ -256,6 +230,13 @@ struct Scored {
   double score;
 };
 
+/// Harmonics of a beam in units of c, from the first.
+std::vector<double> ratios_of(const TensionedBeam& beam) {
+  std::vector<double> ratios;
+  for (int n = 1; n <= kHighest; ++n) ratios.push_back(frequency_ratio(n, beam));
+  return ratios;
+}
+
 /// Harmonics of one beam of the coarse grid, in units of c.
 std::vector<std::vector<double>> coarse_grid() {
   std::vector<std::vector<double>> grid;
@@ -264,9 +245,7 @@ std::vector<std::vector<double>> coarse_grid() {
       // Equal steps of the first harmonic's ratio; sag raises it from 1 to 2.2.
       for (int step = 0; step <= 12; ++step) {
         const double lambda_squared = 40.0 * step / 12.0 * (1.0 + step / 12.0) / 2.0;
-        std::vector<double> ratios;
-        for (int n = 1; n <= kHighest; ++n) ratios.push_back(frequency_ratio(n, {xi, lambda_squared, fixity}));
-        grid.push_back(std::move(ratios));
+        grid.push_back(ratios_of({xi, lambda_squared, fixity}));
       }
     }
   }
@@ -306,11 +285,31 @@ Numbers near_ratios(const std::vector<double>& frequencies_Hz, double c_Hz, cons
 
 }  // namespace
 
+StayFit fit_stay(const std::vector<Harmonic>& frequencies, const StaySection& section, double level, double lowest_Hz,
+                 double highest_Hz) {
+  if (frequencies.size() < 2) return {};
+  std::vector<Explained> numberings = compared(frequencies, section, lowest_Hz, highest_Hz);
+  if (numberings.empty()) return {};
+  most_probable_first(numberings);
+  constexpr std::size_t kMost = 3;
+  if (numberings.size() > kMost) numberings.resize(kMost);
+  for (Explained& e : numberings) e = explain(frequencies, e.numbers, section, Effort::full);
+  most_probable_first(numberings);
+  return fit_of(numberings, section, level);
+}
+
+StayFit fit_numbered(const std::vector<Harmonic>& harmonics, const StaySection& section, double level) {
+  if (harmonics.size() < 2)
+    throw InputError({"", 0, "stay"}, fmt::format("has {} harmonics, expected at least two", harmonics.size()),
+                     "identify higher modes of the stay");
+  Numbers numbers;
+  for (std::size_t i = 0; i < harmonics.size(); ++i) numbers[harmonics[i].number] = i;
+  return fit_of({explain(harmonics, numbers, section, Effort::full)}, section, level);
+}
+
 Numbers numbers_near(const std::vector<double>& frequencies_Hz, double c_Hz, const TensionedBeam& beam, double reach,
                      double least) {
-  std::vector<double> ratios;
-  for (int n = 1; n <= kHighest; ++n) ratios.push_back(frequency_ratio(n, beam));
-  return near_ratios(frequencies_Hz, c_Hz, ratios, reach, least, nullptr);
+  return near_ratios(frequencies_Hz, c_Hz, ratios_of(beam), reach, least, nullptr);
 }
 
 std::vector<Numbers> candidate_numbers(const std::vector<double>& frequencies_Hz, double lowest_Hz, double highest_Hz) {
@@ -334,11 +333,9 @@ std::vector<Numbers> candidate_numbers(const std::vector<double>& frequencies_Hz
   }
   std::vector<Scored> ranked;
   for (auto& [key, scored] : best) ranked.push_back(std::move(scored));
-  std::stable_sort(ranked.begin(), ranked.end(), [](const Scored& a, const Scored& b) { return a.score > b.score; });
+  std::ranges::stable_sort(ranked, [](const Scored& a, const Scored& b) { return a.score > b.score; });
   if (ranked.size() > kMostCandidates) ranked.resize(kMostCandidates);
-  std::vector<Numbers> candidates;
-  for (Scored& scored : ranked) candidates.push_back(std::move(scored.numbers));
-  return candidates;
+  return each_of(ranked, &Scored::numbers);
 }
 
 }  // namespace twindeck::identification

@@ -5,6 +5,7 @@
 #include <complex>
 
 #include "core/error.hpp"
+#include "core/lists.hpp"
 #include "core/statistics.hpp"
 #include "identification/ssi_cov.hpp"
 #include "linalg/dense.hpp"
@@ -32,11 +33,9 @@ PoleFactors pole_factors(const Observability& observability, const ShiftModels& 
 namespace {
 
 const Eigen::MatrixXd& factor_of(const ShiftModels& models, const PoleFactors& factors, const Pole& pole) {
-  const auto model =
-      std::find_if(models.orders.begin(), models.orders.end(), [&](const OrderModel& m) { return m.order == pole.order; });
+  const auto model = std::ranges::find_if(models.orders, [&](const OrderModel& m) { return m.order == pole.order; });
   TWINDECK_ASSERT(model != models.orders.end());
-  const auto at =
-      std::find_if(model->poles.begin(), model->poles.end(), [&](const Pole& p) { return p.eigenvalue == pole.eigenvalue; });
+  const auto at = std::ranges::find_if(model->poles, [&](const Pole& p) { return p.eigenvalue == pole.eigenvalue; });
   TWINDECK_ASSERT(at != model->poles.end());
   return factors
       .of[static_cast<std::size_t>(model - models.orders.begin())][static_cast<std::size_t>(at - model->poles.begin())];
@@ -74,16 +73,12 @@ std::vector<ModeDeviation> mode_deviations(const ShiftModels& models, const Pole
                                            const std::vector<std::vector<Pole>>& modes) {
   std::vector<ModeDeviation> deviations;
   for (const std::vector<Pole>& mode : modes) {
-    std::vector<Eigen::MatrixXd> members;
-    for (const Pole& pole : mode) members.push_back(turned_factor(models, factors, pole, mode.front().shape));
+    const auto members =
+        each_of(mode, [&](const Pole& pole) { return turned_factor(models, factors, pole, mode.front().shape); });
     Eigen::MatrixXd factor(members.front().rows(), members.front().cols());
-    for (Index b = 0; b < factor.cols(); ++b) {
-      for (Index row = 0; row < factor.rows(); ++row) {
-        std::vector<double> values;
-        for (const Eigen::MatrixXd& member : members) values.push_back(member(row, b));
-        factor(row, b) = median(std::move(values));
-      }
-    }
+    for (Index b = 0; b < factor.cols(); ++b)
+      for (Index row = 0; row < factor.rows(); ++row)
+        factor(row, b) = median(each_of(members, [&](const Eigen::MatrixXd& member) { return member(row, b); }));
     deviations.push_back(deviation_of_factor(std::move(factor)));
   }
   return deviations;

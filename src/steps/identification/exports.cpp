@@ -115,8 +115,7 @@ void write_mode_exports(const identification::ConditionResult& result, const std
     shape.complex = true;
     shape.frequency_Hz = mode.frequency_Hz;
     shape.damping_ratio = mode.damping_ratio;
-    const double omega = 2.0 * M_PI * mode.frequency_Hz;
-    shape.eigenvalue = {-mode.damping_ratio * omega, omega * std::sqrt(1.0 - mode.damping_ratio * mode.damping_ratio)};
+    shape.eigenvalue = identification::eigenvalue_of(mode.frequency_Hz, mode.damping_ratio);
     double largest = 0.0;
     for (std::size_t i = 0; i < points.size(); ++i) {
       shape.values[labels[i]] = vector_at(result, points[i], mode.shape);

@@ -208,11 +208,9 @@ std::string numbers_of(const identification::Numbering& numbering) {
   return fmt::format("{}", fmt::join(numbers, " "));
 }
 
-/// decays.csv: `condition,setup,mode,frequency_Hz,frequency_std_Hz,damping_ratio_pct,damping_ratio_std_pct,orders` and the
-/// ambient mode it agrees with, `ambient_mode,ambient_frequency_Hz,ambient_frequency_std_Hz,mac` (empty for none).
-/// amplitude.csv: `source,condition,setup,record,mode,amplitude,quantity,frequency_Hz,frequency_std_Hz,damping_ratio_pct,
-/// damping_ratio_std_pct,seconds`: source free_decay (bands of the envelope) and ambient (one row a mode, amplitude sqrt(2)
-/// times the modal RMS), at the channel of the shape's largest component.
+/// decays.csv: each mode with the ambient mode it agrees with (empty for none). amplitude.csv: source free_decay (bands of the
+/// envelope) and ambient (one row a mode, amplitude sqrt(2) times the modal RMS), at the channel of the shape's largest
+/// component.
 void write_decays(const std::vector<identification::DecayResult>& decays,
                   const std::vector<identification::ConditionResult>& results,
                   const identification::IdentificationSettings& config, const std::filesystem::path& folder) {
@@ -252,11 +250,7 @@ void write_decays(const std::vector<identification::DecayResult>& decays,
   levels.save(folder / "amplitude.csv");
 }
 
-/// stays.csv: `stay,condition,harmonic,frequency_Hz,frequency_std_Hz,damping_ratio_pct,damping_ratio_std_pct`.
-/// stay_tensions.csv: `stay,condition,length_m,c_Hz,c_low_Hz,c_high_Hz,tension_per_mass_m2_s2,tension_per_mass_low_m2_s2,
-/// tension_per_mass_high_m2_s2,lambda_squared,lambda_squared_low,lambda_squared_high,xi,xi_low,xi_high,hinged_probability,
-/// clamped_probability,numbering_probability,residual,harmonics,level` (tension empty without a length, lambda² without the
-/// first harmonic).
+/// stays.csv and stay_tensions.csv: the tension is empty without a length, lambda² without the first harmonic.
 void write_stays(const std::vector<identification::StayResult>& stays, double level, const std::filesystem::path& folder) {
   io::CsvWriter modes(
       {"stay", "condition", "harmonic", "frequency_Hz", "frequency_std_Hz", "damping_ratio_pct", "damping_ratio_std_pct"});
