@@ -75,8 +75,8 @@ ArrayChoice choose_arrays(const std::vector<NamedArray>& arrays, const std::vect
 
 void list_channels(const std::vector<NamedArray>& arrays, const ArrayChoice& choice, RecordInfo& info) {
   const NamedArray& first = arrays[choice.data.front()];
-  const bool matrix = choice.data.size() == 1;
-  const Index channels = matrix ? first.shorter() : std::ssize(choice.data);
+  const bool matrix = choice.is_matrix();
+  const Index channels = choice.channels(arrays);
   info.names_channels = info.has_header = !matrix;
   for (const std::size_t at : choice.left_out)
     info.notes.push_back(fmt::format("'{}' has as many samples, left out", arrays[at].name));

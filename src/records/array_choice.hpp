@@ -24,6 +24,11 @@ struct ArrayChoice {
   int time = -1;                      ///< vector of times
   std::vector<std::size_t> scalars;   ///< single numbers; one of them may be the rate
   std::vector<std::size_t> left_out;  ///< further matrices of as many samples
+
+  [[nodiscard]] bool is_matrix() const { return data.size() == 1; }
+  [[nodiscard]] Eigen::Index channels(const std::vector<NamedArray>& arrays) const {
+    return is_matrix() ? arrays[data.front()].shorter() : std::ssize(data);
+  }
 };
 
 /// Chooses the record in a file of arrays. The largest matrix is the record; samples run along its longer side. Without a

@@ -23,19 +23,10 @@ using Functions = std::vector<UniversalFunction>;
 namespace {
 
 std::string function_name(int type) {
-  static const std::array<const char*, 13> names = {"a function of unknown type",
-                                                    "a time series",
-                                                    "an auto-spectrum",
-                                                    "a cross-spectrum",
-                                                    "a frequency response function",
-                                                    "a transmissibility",
-                                                    "a coherence",
-                                                    "an auto-correlation",
-                                                    "a cross-correlation",
-                                                    "a power spectral density",
-                                                    "an energy spectral density",
-                                                    "a probability density",
-                                                    "a spectrum"};
+  static const auto names = std::to_array<const char*>(
+      {"a function of unknown type", "a time series", "an auto-spectrum", "a cross-spectrum", "a frequency response function",
+       "a transmissibility", "a coherence", "an auto-correlation", "a cross-correlation", "a power spectral density",
+       "an energy spectral density", "a probability density", "a spectrum"});
   return type >= 0 && type < std::ssize(names) ? names[static_cast<std::size_t>(type)]
                                                : fmt::format("a function of type {}", type);
 }
@@ -59,6 +50,8 @@ int derivatives_of(const std::string& quantity) { return quantity == "accelerati
 struct Sides {
   std::vector<std::string> responses, references;
   [[nodiscard]] bool hammer_roves() const { return references.size() > responses.size(); }
+  /// What the points of the other side are.
+  [[nodiscard]] const char* other_role() const { return hammer_roves() ? "response" : "reference"; }
   void add(const UniversalFunction& function) {
     if (!contains(responses, function.response)) responses.push_back(function.response);
     if (!contains(references, function.reference)) references.push_back(function.reference);
@@ -72,58 +65,64 @@ const std::string& other_point(const UniversalFunction& function, const Sides& s
   return sides.hammer_roves() ? function.response : function.reference;
 }
 
+/// Refuses a function by its number and line.
+struct FunctionRefusal {
+  const UniversalFunction& function;
+  const fs::path& file;
+  [[noreturn]] void operator()(const std::string& problem, const std::string& mend) const {
+    throw InputError({file.string(), function.line, fmt::format("set 58 number {}", function.number)}, problem, mend);
+  }
+};
+
 /// Refuses a function that is no frequency response function of motion over force in complex values against Hz.
 void check_function(const UniversalFunction& function, const fs::path& file) {
-  const Place place{file.string(), function.line, fmt::format("set 58 number {}", function.number)};
+  const FunctionRefusal refuse{function, file};
   if (function.function != kFrequencyResponse)
-    throw InputError(place, "is " + function_name(function.function) + ", expected frequency response functions (type 4)",
-                     "export the frequency response functions alone, with their coherences if you like");
+    refuse("is " + function_name(function.function) + ", expected frequency response functions (type 4)",
+           "export the frequency response functions alone, with their coherences if you like");
   if (!function.complex)
-    throw InputError(place, "has real values, an amplitude without phase, expected complex values (data of type 5 or 6)",
-                     "export the frequency response functions as real and imaginary part");
+    refuse("has real values, an amplitude without phase, expected complex values (data of type 5 or 6)",
+           "export the frequency response functions as real and imaginary part");
   if (function.abscissa != kFrequencyData && function.abscissa != 0)
-    throw InputError(place, fmt::format("has an abscissa of data type {}, expected 18 (frequency in Hz)", function.abscissa),
-                     "export it against frequency");
+    refuse(fmt::format("has an abscissa of data type {}, expected 18 (frequency in Hz)", function.abscissa),
+           "export it against frequency");
   if (function.abscissa_unit.find("rad") != std::string::npos || function.abscissa_unit.find("RPM") != std::string::npos)
-    throw InputError(place, "has an abscissa in " + function.abscissa_unit + ", expected Hz", "export it against Hz");
+    refuse("has an abscissa in " + function.abscissa_unit + ", expected Hz", "export it against Hz");
   if (function.response.empty())
-    throw InputError(place, "names no response node, expected node and direction in columns 42 to 55 of record 6",
-                     "export it with the numbers of its nodes");
+    refuse("names no response node, expected node and direction in columns 42 to 55 of record 6",
+           "export it with the numbers of its nodes");
   if (function.reference.empty())
-    throw InputError(place, "names no reference node, expected node and direction of the force in columns 67 to 80 of record 6",
-                     "export it with the numbers of its nodes");
+    refuse("names no reference node, expected node and direction of the force in columns 67 to 80 of record 6",
+           "export it with the numbers of its nodes");
   constexpr int general = 1;  // as good as unknown
   const bool is_motion = function.quantity == 0 || function.quantity == general || *quantity_of(function.quantity) != '\0';
   const bool is_force =
       function.over == 0 || function.over == general || function.over == kForceData || function.over == kReactionForceData;
   if (!is_motion || !is_force)
-    throw InputError(place,
-                     fmt::format("is data of type {} over data of type {}, expected acceleration (12), velocity (11) or "
-                                 "displacement (8) over force (13)",
-                                 function.quantity, function.over),
-                     "export functions of motion over force, or correct records 9 and 10");
+    refuse(fmt::format("is data of type {} over data of type {}, expected acceleration (12), velocity (11) or "
+                       "displacement (8) over force (13)",
+                       function.quantity, function.over),
+           "export functions of motion over force, or correct records 9 and 10");
 }
 
 /// Positions and values of the lines above 0 Hz are compared with those of the first function.
 void check_lines(const UniversalFunction& function, const Eigen::VectorXd& frequency_Hz, const fs::path& file) {
   constexpr double same = 1e-5;  // of the band: a start and a step of six digits
-  const Place place{file.string(), function.line, fmt::format("set 58 number {}", function.number)};
+  const FunctionRefusal refuse{function, file};
   const Eigen::VectorXd& at = function.at;
   for (Index k = 1; k < at.size(); ++k)
     if (!(at[k] > at[k - 1]))
-      throw InputError(place, fmt::format("has {:.6g} Hz after {:.6g} Hz, expected ascending frequencies", at[k], at[k - 1]),
-                       "export it anew");
+      refuse(fmt::format("has {:.6g} Hz after {:.6g} Hz, expected ascending frequencies", at[k], at[k - 1]), "export it anew");
   const double band = frequency_Hz[frequency_Hz.size() - 1] - frequency_Hz[0];
   if (at.size() != frequency_Hz.size() || (at - frequency_Hz).cwiseAbs().maxCoeff() > same * band)
-    throw InputError(
-        place,
+    refuse(
         fmt::format("has {} lines from {:.6g} to {:.6g} Hz, but the first function has {} from {:.6g} to {:.6g} Hz", at.size(),
                     at[0], at[at.size() - 1], frequency_Hz.size(), frequency_Hz[0], frequency_Hz[frequency_Hz.size() - 1]),
         "export all functions of a setup with the same lines, or give them setups of their own");
   for (std::size_t k = 0; k < function.ordinate.size(); ++k)
     if (!std::isfinite(std::abs(function.ordinate[k])) && at[static_cast<Index>(k)] > 0.0)
-      throw InputError(place, fmt::format("has a value that is no number at {:.6g} Hz", at[static_cast<Index>(k)]),
-                       "export a band without that line, or measure it again");
+      refuse(fmt::format("has a value that is no number at {:.6g} Hz", at[static_cast<Index>(k)]),
+             "export a band without that line, or measure it again");
 }
 
 /// A file of a setup, with the frequency response functions in it.
@@ -202,10 +201,10 @@ void place_functions(const Campaign& campaign, const ResponseFile& file, const S
       const Index other = std::ranges::find(all.others, other_point(function, sides)) - all.others.begin();
       const Index column = row * n_others + other;
       if (filled[static_cast<std::size_t>(column)])
-        throw InputError({file.record.file.string(), function.line, channel.name},
-                         fmt::format("is there twice for {} {}", sides.hammer_roves() ? "response" : "reference",
-                                     all.others[static_cast<std::size_t>(other)]),
-                         "keep one of the two, or give the second a condition or setup of its own");
+        throw InputError(
+            {file.record.file.string(), function.line, channel.name},
+            fmt::format("is there twice for {} {}", sides.other_role(), all.others[static_cast<std::size_t>(other)]),
+            "keep one of the two, or give the second a condition or setup of its own");
       filled[static_cast<std::size_t>(column)] = true;
       const std::string quantity = settled_quantity(function, channel, file.record, sides.hammer_roves());
       if (all.quantity.empty()) all.quantity = quantity;
@@ -263,8 +262,7 @@ FrequencyResponses read_frequency_responses(const Campaign& campaign, const Reco
     const auto k = static_cast<std::size_t>(gap - filled.begin());
     throw InputError({group.records.front().file.string(), 0, all.channels[k / all.others.size()]},
                      fmt::format("of setup {} has no function for {} {}, expected each pair of channel and {}", group.setup,
-                                 sides.hammer_roves() ? "response" : "reference", all.others[k % all.others.size()],
-                                 sides.hammer_roves() ? "response" : "reference"),
+                                 sides.other_role(), all.others[k % all.others.size()], sides.other_role()),
                      "add the function, leave the channel out of `channels`, or make a setup of the complete pairs");
   }
   if (sides.hammer_roves())

@@ -84,6 +84,33 @@ void refuse_containers(const fs::path& file, std::string_view text) {
       throw InputError({file.string(), 0, ""}, std::string("is ") + one.what, one.mend);
 }
 
+/// Samples as they come, part by part.
+class Gathered {
+ public:
+  void add(Index row, Index column, const Eigen::MatrixXd& block) {
+    const Index rows = row + block.rows(), columns = column + block.cols();
+    if (rows > all_.rows() || columns > all_.cols()) {
+      // Half as much again, so that a long text file is not copied at every part.
+      const Index old_rows = all_.rows(), old_columns = all_.cols(),
+                  room = rows > old_rows ? std::max(rows, old_rows + old_rows / 2) : old_rows;
+      all_.conservativeResize(room, std::max(columns, old_columns));
+      const double nan = std::numeric_limits<double>::quiet_NaN();
+      all_.bottomRows(room - old_rows).setConstant(nan);
+      all_.topRows(old_rows).rightCols(all_.cols() - old_columns).setConstant(nan);
+    }
+    all_.block(row, column, block.rows(), block.cols()) = block;
+    used_ = std::max(used_, rows);
+  }
+  Eigen::MatrixXd take() {
+    all_.conservativeResize(used_, Eigen::NoChange);
+    return std::move(all_);
+  }
+
+ private:
+  Eigen::MatrixXd all_;
+  Index used_ = 0;
+};
+
 }  // namespace
 
 bool is_universal_file(const fs::path& file) { return is_universal(beginning(file)); }
@@ -116,37 +143,6 @@ RecordInfo scan(const fs::path& file, const Visitor& visit, const ReadOptions& o
   refuse_containers(file, text);
   return scan_text(file, visit, options);
 }
-
-namespace {
-
-/// Samples as they come, part by part.
-class Gathered {
- public:
-  void add(Index row, Index column, const Eigen::MatrixXd& block) {
-    const Index rows = row + block.rows(), columns = column + block.cols();
-    if (rows > all_.rows() || columns > all_.cols()) {
-      // Half as much again, so that a long text file is not copied at every part.
-      const Index old_rows = all_.rows(), old_columns = all_.cols(),
-                  room = rows > old_rows ? std::max(rows, old_rows + old_rows / 2) : old_rows;
-      all_.conservativeResize(room, std::max(columns, old_columns));
-      const double nan = std::numeric_limits<double>::quiet_NaN();
-      all_.bottomRows(room - old_rows).setConstant(nan);
-      all_.topRows(old_rows).rightCols(all_.cols() - old_columns).setConstant(nan);
-    }
-    all_.block(row, column, block.rows(), block.cols()) = block;
-    used_ = std::max(used_, rows);
-  }
-  Eigen::MatrixXd take() {
-    all_.conservativeResize(used_, Eigen::NoChange);
-    return std::move(all_);
-  }
-
- private:
-  Eigen::MatrixXd all_;
-  Index used_ = 0;
-};
-
-}  // namespace
 
 Record read(const fs::path& file, const ReadOptions& options) {
   Record record;

@@ -246,13 +246,12 @@ std::string called(std::string name, bool matlab) {
 RecordInfo info_of(const Found& found, const ArrayChoice& choice) {
   RecordInfo info;
   const NamedArray& first = found.arrays[choice.data.front()];
-  const bool matrix = choice.data.size() == 1;
-  const Index channels = matrix ? first.shorter() : std::ssize(choice.data);
+  const bool matrix = choice.is_matrix();
   const std::string kind = found.matlab ? "MAT 7.3" : "HDF5", item = found.matlab ? "array" : "dataset";
   // MATLAB's first dimension is the last in the file.
   const auto [rows, columns] = found.matlab ? std::pair(first.columns, first.rows) : std::pair(first.rows, first.columns);
   info.format = matrix ? fmt::format("{}, {} '{}' {} x {}", kind, item, called(first.name, found.matlab), rows, columns)
-                       : fmt::format("{}, {} {}", kind, channels, found.matlab ? "vectors" : "datasets");
+                       : fmt::format("{}, {} {}", kind, choice.channels(found.arrays), found.matlab ? "vectors" : "datasets");
   list_channels(found.arrays, choice, info);
   if (matrix && columns > rows) info.notes.emplace_back("channels run along the rows");
   for (const std::string& other : found.others) info.notes.push_back(other + ", left out");

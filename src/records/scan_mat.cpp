@@ -46,8 +46,8 @@ RecordInfo scan_mat(const fs::path& file, const Visitor& visit) {
   const auto shapes = each_of(mat.arrays, &MatArray::shape);
   const ArrayChoice choice = choose_arrays(shapes, mat.notes, file.string());
   const NamedArray& first = shapes[choice.data.front()];
-  const bool matrix = choice.data.size() == 1;
-  const Index channels = matrix ? first.shorter() : std::ssize(choice.data);
+  const bool matrix = choice.is_matrix();
+  const Index channels = choice.channels(shapes);
   RecordInfo info;
   for (const std::string& other : mat.notes) info.notes.push_back(other + ", left out");
   info.format =

@@ -255,14 +255,12 @@ void read_unit_labels(const std::vector<std::string>& lines, std::size_t first, 
   }
 }
 
-void read_header_rate(const std::vector<std::string>& lines, std::size_t first, TextLayout& layout) {
+/// Rate and number of samples that a line of the header states.
+void read_header_numbers(const std::vector<std::string>& lines, std::size_t first, TextLayout& layout) {
   for (std::size_t i = 0; i < first && !layout.header_rate_Hz; ++i) {
     layout.header_rate_Hz = rate_in_header_line(lines[i]);
     if (layout.header_rate_Hz) layout.header_rate_text = std::string(trimmed(lines[i]));
   }
-}
-
-void read_header_samples(const std::vector<std::string>& lines, std::size_t first, TextLayout& layout) {
   for (std::size_t i = 0; i < first && !layout.header_samples; ++i) {
     layout.header_samples = samples_in_header_line(lines[i]);
     layout.header_samples_line = static_cast<long>(i) + 1;
@@ -481,8 +479,7 @@ TextLayout find_layout(const fs::path& file) {
   layout.first_data_line = static_cast<long>(first) + 1;
   read_names(lines, first, layout);
   read_unit_labels(lines, first, layout);
-  read_header_samples(lines, first, layout);
-  read_header_rate(lines, first, layout);
+  read_header_numbers(lines, first, layout);
   const auto rows = first_rows(lines, first, layout);
   refuse_thousands(rows, layout, file);
   find_time(rows, layout);
