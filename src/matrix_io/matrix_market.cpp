@@ -177,6 +177,20 @@ void refuse_upper_triangle(const MarketReader& reader, const std::vector<Entry>&
                   "write the lower triangle only, or call the matrix general", e.line);
 }
 
+void write_entries(const linalg::SparseMatrix& matrix, const char* symmetry, const std::filesystem::path& file) {
+  std::string body;
+  long count = 0;
+  for (int column = 0; column < matrix.outerSize(); ++column) {
+    for (linalg::SparseMatrix::InnerIterator entry(matrix, column); entry; ++entry) {
+      if (entry.value() == 0.0) continue;
+      fmt::format_to(std::back_inserter(body), "{} {} {:.17g}\n", entry.row() + 1, entry.col() + 1, entry.value());
+      ++count;
+    }
+  }
+  io::write_file_atomically(
+      file, fmt::format("%%MatrixMarket matrix coordinate real {0}\n{1} {1} {2}\n", symmetry, matrix.rows(), count) + body);
+}
+
 }  // namespace
 
 linalg::SparseMatrix symmetric_lower(const std::map<std::pair<long, long>, double>& entries, long n, bool triangle,
@@ -230,24 +244,6 @@ Eigen::MatrixXd read_square_matrix(const std::filesystem::path& file) {
   }
   return matrix;
 }
-
-namespace {
-
-void write_entries(const linalg::SparseMatrix& matrix, const char* symmetry, const std::filesystem::path& file) {
-  std::string body;
-  long count = 0;
-  for (int column = 0; column < matrix.outerSize(); ++column) {
-    for (linalg::SparseMatrix::InnerIterator entry(matrix, column); entry; ++entry) {
-      if (entry.value() == 0.0) continue;
-      fmt::format_to(std::back_inserter(body), "{} {} {:.17g}\n", entry.row() + 1, entry.col() + 1, entry.value());
-      ++count;
-    }
-  }
-  io::write_file_atomically(
-      file, fmt::format("%%MatrixMarket matrix coordinate real {0}\n{1} {1} {2}\n", symmetry, matrix.rows(), count) + body);
-}
-
-}  // namespace
 
 void write_square_matrix(const Eigen::Ref<const Eigen::MatrixXd>& matrix, const std::filesystem::path& file) {
   TWINDECK_ASSERT(matrix.rows() == matrix.cols());

@@ -42,6 +42,12 @@ Eigen::Matrix3d turned_axes(const Eigen::Vector3d& angles) {
   return (by(0, 2) * by(1, 0) * by(2, 1)).toRotationMatrix().transpose();
 }
 
+Node& known_node(Parts& parts, const Command& command, long id, const char* mend = "define it before, or correct the number") {
+  const auto found = parts.nodes.find(id);
+  if (found == parts.nodes.end()) command.fail(fmt::format("node {} is not defined", id), mend);
+  return found->second;
+}
+
 /// N,R5.3,LOC,node,x,y,z, or N,UNBL,LOC,…: how an archive without blocks writes them; node -1 ends a block.
 bool read_archived_node(Parts& parts, const Command& command) {
   if (!command.word(0).starts_with("R5.") && command.word(0) != "UNBL") return false;
@@ -51,9 +57,7 @@ bool read_archived_node(Parts& parts, const Command& command) {
   if (command.word(1) == "LOC") {
     add_node(parts, id, {values});
   } else if (command.word(1) == "ANG") {
-    const auto found = parts.nodes.find(id);
-    if (found == parts.nodes.end()) command.fail(fmt::format("node {} is not defined", id), "give its LOC line before");
-    found->second.axes = turned_axes(values);
+    known_node(parts, command, id, "give its LOC line before").axes = turned_axes(values);
   } else {
     command.fail(fmt::format("'{}' is neither LOC nor ANG", command.fields[1]), "check the archive");
   }
@@ -61,13 +65,6 @@ bool read_archived_node(Parts& parts, const Command& command) {
 }
 
 constexpr long most_copies = 1'000'000;  ///< of one command: more is a slip of the pen
-
-const Node& known_node(Parts& parts, const Command& command, long id) {
-  const auto found = parts.nodes.find(id);
-  if (found == parts.nodes.end())
-    command.fail(fmt::format("node {} is not defined", id), "define it before, or correct the number");
-  return found->second;
-}
 
 long copies_of(const Command& command, std::size_t field) {
   const long copies = command.integer_or(field, 1);

@@ -15,6 +15,45 @@
 namespace twindeck::model_io {
 namespace {
 constexpr const char* skew_support = "skew_support";  ///< constraints of supports along a node's own axes
+
+/// Motions q of the reference node (x y z rx ry rz) that fit the samples u best.
+struct WeightedMean {
+  Eigen::MatrixXd of_samples;      ///< q = of_samples · u (6 × samples); [-], rotations [1/m] of displacements
+  std::array<bool, 6> determined;  ///< whether the samples say what this motion is
+};
+
+WeightedMean weighted_mean(const DeckModel& deck, int reference, const std::vector<DeckModel::Sample>& samples) {
+  constexpr double singular = 1e-9, settled = 1e-6;  ///< [-] of the largest singular value; of a unit motion
+  const auto n = std::ssize(samples);
+  double reach = 0.0;
+  const auto arm_m = [&](const DeckModel::Sample& sample) {
+    return Eigen::Vector3d(deck.place(sample.node) - deck.place(reference));
+  };
+  for (const DeckModel::Sample& sample : samples) reach += arm_m(sample).norm() / static_cast<double>(n);
+  if (!(reach > 0.0)) reach = 1.0;
+  Eigen::Matrix<double, Eigen::Dynamic, 6> s(n, 6);
+  Eigen::VectorXd root(n);
+  for (Eigen::Index i = 0; i < n; ++i) {
+    const DeckModel::Sample& sample = samples[static_cast<std::size_t>(i)];
+    if (sample.rotation)
+      s.row(i) << Eigen::RowVector3d::Zero(), sample.direction / reach;
+    else
+      s.row(i) << sample.direction, -sample.direction * fe::beam::cross_matrix(arm_m(sample)) / reach;
+    root[i] = std::sqrt(sample.weight) * (sample.rotation ? reach : 1.0);
+  }
+  // Rotations times the reach are of the size of displacements.
+  Eigen::CompleteOrthogonalDecomposition<Eigen::MatrixXd> whole(root.asDiagonal() * s);
+  whole.setThreshold(singular);
+  const Eigen::MatrixXd inverse = whole.pseudoInverse();
+  const Eigen::MatrixXd seen = inverse * root.asDiagonal() * s;
+  WeightedMean mean;
+  mean.of_samples = inverse * root.asDiagonal();
+  mean.of_samples.bottomRows<3>() /= reach;
+  for (Eigen::Index k = 0; k < 6; ++k)
+    mean.determined[static_cast<std::size_t>(k)] = (seen.row(k) - Eigen::Matrix<double, 1, 6>::Unit(k)).norm() < settled;
+  return mean;
+}
+
 }  // namespace
 
 bool DeckModel::together(int a, int b, double tolerance) const {
@@ -183,48 +222,6 @@ bool DeckModel::is_rigid_link(const std::vector<const DeckEquation*>& equations,
   }
   return is_whole(tied, slave);
 }
-
-namespace {
-
-/// Motions q of the reference node (x y z rx ry rz) that fit the samples u best.
-struct WeightedMean {
-  Eigen::MatrixXd of_samples;      ///< q = of_samples · u (6 × samples); [-], rotations [1/m] of displacements
-  std::array<bool, 6> determined;  ///< whether the samples say what this motion is
-};
-
-WeightedMean weighted_mean(const DeckModel& deck, int reference, const std::vector<DeckModel::Sample>& samples) {
-  constexpr double singular = 1e-9, settled = 1e-6;  ///< [-] of the largest singular value; of a unit motion
-  const auto n = std::ssize(samples);
-  double reach = 0.0;
-  const auto arm_m = [&](const DeckModel::Sample& sample) {
-    return Eigen::Vector3d(deck.place(sample.node) - deck.place(reference));
-  };
-  for (const DeckModel::Sample& sample : samples) reach += arm_m(sample).norm() / static_cast<double>(n);
-  if (!(reach > 0.0)) reach = 1.0;
-  Eigen::Matrix<double, Eigen::Dynamic, 6> s(n, 6);
-  Eigen::VectorXd root(n);
-  for (Eigen::Index i = 0; i < n; ++i) {
-    const DeckModel::Sample& sample = samples[static_cast<std::size_t>(i)];
-    if (sample.rotation)
-      s.row(i) << Eigen::RowVector3d::Zero(), sample.direction / reach;
-    else
-      s.row(i) << sample.direction, -sample.direction * fe::beam::cross_matrix(arm_m(sample)) / reach;
-    root[i] = std::sqrt(sample.weight) * (sample.rotation ? reach : 1.0);
-  }
-  // Rotations times the reach are of the size of displacements.
-  Eigen::CompleteOrthogonalDecomposition<Eigen::MatrixXd> whole(root.asDiagonal() * s);
-  whole.setThreshold(singular);
-  const Eigen::MatrixXd inverse = whole.pseudoInverse();
-  const Eigen::MatrixXd seen = inverse * root.asDiagonal() * s;
-  WeightedMean mean;
-  mean.of_samples = inverse * root.asDiagonal();
-  mean.of_samples.bottomRows<3>() /= reach;
-  for (Eigen::Index k = 0; k < 6; ++k)
-    mean.determined[static_cast<std::size_t>(k)] = (seen.row(k) - Eigen::Matrix<double, 1, 6>::Unit(k)).norm() < settled;
-  return mean;
-}
-
-}  // namespace
 
 void DeckModel::tie_to_mean(const DeckPlace& at, const std::function<std::string(int)>& name, int reference,
                             const std::vector<Sample>& samples, const Directions& wanted, const std::string& mend) {

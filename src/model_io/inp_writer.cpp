@@ -25,6 +25,23 @@ std::string with_point(double value) {
   return text.insert(exponent == std::string::npos ? text.size() : exponent, ".");
 }
 
+/// What no card that we write can say and leaving out would make another structure.
+void refuse_what_cannot_be_said(const fe::Model& model) {
+  const auto refuse = [&](const std::string& what, const std::string& problem, const std::string& mend) {
+    throw InputError({model.source, 0, what}, problem, mend);
+  };
+  for (const fe::Element& element : model.elements)
+    if (element.section2 >= 0)
+      refuse(fmt::format("element {}", element.id), "is a tapered beam, for which an .inp file of ours has no section",
+             "divide it into uniform beams, or use --export-matrices");
+  if (!model.matrix_elements.empty())
+    refuse(fmt::format("matrix element '{}'", model.matrix_elements.front().name),
+           "is given by its matrices, which an .inp file cannot hold", "leave it out, or use --export-matrices");
+  if (model.formulation.lumped_mass)
+    refuse("formulation.lumped_mass", "is true, but the elements of an .inp file have consistent masses",
+           "set it to false, or use --export-matrices");
+}
+
 }  // namespace
 
 InpWriter::InpWriter(const fe::Model& model, const fe::PrestressState& state, InpFlavour flavour)
@@ -210,27 +227,6 @@ std::string InpWriter::text() const {
   for (const auto& sentence : notes_) comments += "** " + sentence + "\n";
   return heading_ + comments + "*NODE, NSET=NALL\n" + nodes_ + materials_ + elements_ + equations_ + supports_ + step_;
 }
-
-namespace {
-
-/// What no card that we write can say and leaving out would make another structure.
-void refuse_what_cannot_be_said(const fe::Model& model) {
-  const auto refuse = [&](const std::string& what, const std::string& problem, const std::string& mend) {
-    throw InputError({model.source, 0, what}, problem, mend);
-  };
-  for (const fe::Element& element : model.elements)
-    if (element.section2 >= 0)
-      refuse(fmt::format("element {}", element.id), "is a tapered beam, for which an .inp file of ours has no section",
-             "divide it into uniform beams, or use --export-matrices");
-  if (!model.matrix_elements.empty())
-    refuse(fmt::format("matrix element '{}'", model.matrix_elements.front().name),
-           "is given by its matrices, which an .inp file cannot hold", "leave it out, or use --export-matrices");
-  if (model.formulation.lumped_mass)
-    refuse("formulation.lumped_mass", "is true, but the elements of an .inp file have consistent masses",
-           "set it to false, or use --export-matrices");
-}
-
-}  // namespace
 
 std::vector<std::string> write_inp(const fe::Model& model, const fe::PrestressState& state, InpFlavour flavour, int n_modes,
                                    const std::filesystem::path& file) {

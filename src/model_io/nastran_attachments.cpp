@@ -12,6 +12,7 @@
 #include "fe/beam_frame.hpp"
 #include "model_io/equal_masses.hpp"
 #include "model_io/names.hpp"
+#include "model_io/nastran_elements.hpp"
 #include "model_io/nastran_properties.hpp"
 
 namespace twindeck::model_io::nastran {
@@ -91,11 +92,7 @@ Eigen::Matrix3d bush_axes(Parts& parts, const Card& card, bool apart, bool axial
   if (!apart) card.fail("has no system CID, and its grids do not lie apart", "give CID (0: the basic axes)");
   Eigen::Matrix3d axes;
   const Eigen::Vector3d x = (parts.grid_place(card, card.integer(3)) - parts.grid_place(card, a)).normalized();
-  Eigen::Vector3d v = card.vector(4);
-  if (is_whole_number(card.text(4)) && card.blank(5) && card.blank(6) && card.text(4) != "0")
-    v = parts.grid_place(card, card.integer(4)) - parts.grid_place(card, a);
-  else
-    v = (parts.displacement_axes(card, a).transpose() * v).eval();
+  Eigen::Vector3d v = plane_vector(parts, card, 'G');
   if (v.isZero(0.0) && axial_only) v = x.unitOrthogonal();
   const Eigen::Vector3d z =
       DeckModel::local_z(card, "its line", x, v, "K2, K3, K5, K6 need a vector: give X1, X2, X3, G0 or CID");

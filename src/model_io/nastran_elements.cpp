@@ -33,15 +33,6 @@ std::string frames_of(const Card& card) {
   return word;
 }
 
-/// The vector v of a member in basic axes: by a grid (G0) or by components.
-Eigen::Vector3d plane_vector(Parts& parts, const Card& card, char frame) {
-  const long a = card.integer(2);
-  if (const std::string first = card.text(4); is_whole_number(first) && first != "0" && card.blank(5) && card.blank(6))
-    return parts.grid_place(card, card.integer(4)) - parts.grid_place(card, a);
-  const Eigen::Vector3d v = card.vector(4);
-  return frame == 'B' ? v : Eigen::Vector3d(parts.displacement_axes(card, a).transpose() * v);
-}
-
 /// Offset of an end in basic axes.
 Eigen::Vector3d offset_of(Parts& parts, const Card& card, std::size_t i, long grid, char frame) {
   const Eigen::Vector3d w = card.vector(i);
@@ -78,6 +69,14 @@ void add_edge_grids(Parts& parts, const Card& card, std::size_t first, std::size
 }
 
 }  // namespace
+
+Eigen::Vector3d plane_vector(Parts& parts, const Card& card, char frame) {
+  const long a = card.integer(2);
+  if (const std::string first = card.text(4); is_whole_number(first) && first != "0" && card.blank(5) && card.blank(6))
+    return parts.grid_place(card, card.integer(4)) - parts.grid_place(card, a);
+  const Eigen::Vector3d v = card.vector(4);
+  return frame == 'B' ? v : Eigen::Vector3d(parts.displacement_axes(card, a).transpose() * v);
+}
 
 void read_member(Parts& parts, const Card& card) {
   fe::Element e = start_element(parts, card, fe::ElementType::beam, 2, 2);
