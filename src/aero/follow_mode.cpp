@@ -85,6 +85,28 @@ std::optional<ComplexMode> advance(const AeroelasticSystem& system, const Comple
   return half ? advance(system, *half, middle, speed, halvings - 1) : std::nullopt;
 }
 
+constexpr double no_growth = 1e-12;  ///< [-] damping ratio: rounding of an eigenvalue
+
+// z² of each strip, whatever the phase.
+std::vector<double> vertical_square(const AeroelasticSystem& system, const ComplexMode& motion) {
+  std::vector<double> square;
+  for (const StripMotion& strip : system.motions())
+    square.push_back(std::norm((strip.row(2).cast<std::complex<double>>() * motion.vector)(0)));
+  return square;
+}
+
+// sum over strips of z² times the lift per heave velocity.
+double heave_damping(const AeroelasticSystem& system, const std::vector<double>& square, double speed, double omega) {
+  double sum = 0.0;
+  for (std::size_t i = 0; i < square.size(); ++i) {
+    const Strip& strip = system.strips()[i];
+    const SectionAero& section = system.sections()[static_cast<std::size_t>(strip.section)];
+    sum +=
+        square[i] * self_excited(section, strip, system.rule(strip), system.wind().density_kg_m3, speed, omega).damping(1, 1);
+  }
+  return sum;
+}
+
 }  // namespace
 
 std::vector<ComplexMode> still_air_modes(const ReducedStructure& structure) {
@@ -131,32 +153,6 @@ Branch follow_mode(const AeroelasticSystem& system, const ComplexMode& still_air
   }
   return branch;
 }
-
-namespace {
-
-constexpr double no_growth = 1e-12;  ///< [-] damping ratio: rounding of an eigenvalue
-
-// z² of each strip, whatever the phase.
-std::vector<double> vertical_square(const AeroelasticSystem& system, const ComplexMode& motion) {
-  std::vector<double> square;
-  for (const StripMotion& strip : system.motions())
-    square.push_back(std::norm((strip.row(2).cast<std::complex<double>>() * motion.vector)(0)));
-  return square;
-}
-
-// sum over strips of z² times the lift per heave velocity.
-double heave_damping(const AeroelasticSystem& system, const std::vector<double>& square, double speed, double omega) {
-  double sum = 0.0;
-  for (std::size_t i = 0; i < square.size(); ++i) {
-    const Strip& strip = system.strips()[i];
-    const SectionAero& section = system.sections()[static_cast<std::size_t>(strip.section)];
-    sum +=
-        square[i] * self_excited(section, strip, system.rule(strip), system.wind().density_kg_m3, speed, omega).damping(1, 1);
-  }
-  return sum;
-}
-
-}  // namespace
 
 std::optional<CriticalPoint> critical_point(const AeroelasticSystem& system, const Branch& branch) {
   if (branch.points.empty()) return std::nullopt;

@@ -9,15 +9,19 @@ namespace twindeck::fe {
 
 namespace {
 
+void keep_each_once(std::vector<std::vector<int>>& lists) {
+  for (std::vector<int>& list : lists) {
+    std::sort(list.begin(), list.end());
+    list.erase(std::unique(list.begin(), list.end()), list.end());
+  }
+}
+
 /// For every node, the nodes whose free degrees of freedom move it: itself, the end of its chain of links, what it is tied to.
 std::vector<std::vector<int>> carriers_of(const Model& model, const DofMap& map) {
   std::vector<std::vector<int>> carriers(model.nodes.size());
   for (std::size_t full = 0; full < map.rows.size(); ++full)
     for (const DofMap::Entry& entry : map.rows[full]) carriers[full / 6].push_back(map.node_of[slot(entry.dof)]);
-  for (auto& list : carriers) {
-    std::sort(list.begin(), list.end());
-    list.erase(std::unique(list.begin(), list.end()), list.end());
-  }
+  keep_each_once(carriers);
   return carriers;
 }
 
@@ -36,10 +40,7 @@ std::vector<std::vector<int>> couple_nodes(const Model& model, const DofMap& map
   for (const Spring& spring : model.springs)
     if (spring.node2 >= 0) couple({spring.node, spring.node2});
   for (const MatrixElement& element : model.matrix_elements) couple(each_of(element.dofs, &MatrixElement::Dof::node));
-  for (auto& list : neighbours) {
-    std::sort(list.begin(), list.end());
-    list.erase(std::unique(list.begin(), list.end()), list.end());
-  }
+  keep_each_once(neighbours);
   return neighbours;
 }
 

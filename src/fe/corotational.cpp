@@ -2,6 +2,7 @@
 
 #include <Eigen/Geometry>
 #include <cmath>
+#include <utility>
 
 #include "core/error.hpp"
 #include "fe/beam_frame.hpp"
@@ -47,14 +48,19 @@ struct TwoVectors {
   }
 };
 
+/// The frame of two vectors, x along the first, and what its spin is made of; the spin is still zero.
+std::pair<FrameState, TwoVectors> frame_along(const Eigen::Vector3d& a, const Eigen::Vector3d& b, std::size_t nodes) {
+  FrameState f;
+  f.axes = axes_of(a, b);
+  const Eigen::Vector3d local = f.axes.transpose() * b;
+  f.spin = Spin::Zero(3, 6 * static_cast<Eigen::Index>(nodes));
+  return {f, {a.norm(), local.x(), local.y()}};
+}
+
 FrameState chord_frame(const std::vector<Eigen::Vector3d>& x, const Eigen::Vector3d& across, const Motion& motion) {
   const Eigen::Vector3d chord = x[1] - x[0];
   const Eigen::Vector3d q1 = motion.rotation[0] * across, q2 = motion.rotation[1] * across;
-  FrameState f;
-  f.axes = axes_of(chord, 0.5 * (q1 + q2));
-  const Eigen::Vector3d q = f.axes.transpose() * (0.5 * (q1 + q2));
-  const TwoVectors vectors{chord.norm(), q.x(), q.y()};
-  f.spin = Spin::Zero(3, 12);
+  auto [f, vectors] = frame_along(chord, 0.5 * (q1 + q2), 2);
   f.spin.block<3, 3>(0, 0) = -vectors.from_a();
   f.spin.block<3, 3>(0, 6) = vectors.from_a();
   for (int end = 0; end < 2; ++end) {  // δq = ½ (δω₁ × q₁ + δω₂ × q₂)
@@ -91,12 +97,7 @@ FrameState quad_frame(const std::vector<Eigen::Vector3d>& x) {
 
 /// Of three points; the further ones of a solid do not turn the frame.
 FrameState triangle_frame(const std::vector<Eigen::Vector3d>& x) {
-  const Eigen::Vector3d a = x[1] - x[0], b = x[2] - x[0];
-  FrameState f;
-  f.axes = axes_of(a, b);
-  const Eigen::Vector3d local = f.axes.transpose() * b;
-  const TwoVectors vectors{a.norm(), local.x(), local.y()};
-  f.spin = Spin::Zero(3, 6 * static_cast<Eigen::Index>(x.size()));
+  auto [f, vectors] = frame_along(x[1] - x[0], x[2] - x[0], x.size());
   f.spin.block<3, 3>(0, 0) = -vectors.from_a() - vectors.from_b();
   f.spin.block<3, 3>(0, 6) = vectors.from_a();
   f.spin.block<3, 3>(0, 12) = vectors.from_b();
@@ -108,11 +109,7 @@ FrameState box_frame(const std::vector<Eigen::Vector3d>& x) {
   constexpr std::array<double, 8> along = {-1, 1, 1, -1, -1, 1, 1, -1}, across = {-1, -1, 1, 1, -1, -1, 1, 1};
   Eigen::Vector3d a = Eigen::Vector3d::Zero(), b = a;
   for (std::size_t i = 0; i < 8; ++i) a += 0.25 * along[i] * x[i], b += 0.25 * across[i] * x[i];
-  FrameState f;
-  f.axes = axes_of(a, b);
-  const Eigen::Vector3d local = f.axes.transpose() * b;
-  const TwoVectors vectors{a.norm(), local.x(), local.y()};
-  f.spin = Spin::Zero(3, 6 * static_cast<Eigen::Index>(x.size()));
+  auto [f, vectors] = frame_along(a, b, x.size());
   for (int i = 0; i < 8; ++i) {
     const auto s = static_cast<std::size_t>(i);
     f.spin.block<3, 3>(0, 6 * i) = 0.25 * (along[s] * vectors.from_a() + across[s] * vectors.from_b());
@@ -141,33 +138,6 @@ Eigen::Vector3d mean_of(const std::vector<Eigen::Vector3d>& x) {
   for (const Eigen::Vector3d& each : x) sum += each;
   return sum / static_cast<double>(x.size());
 }
-
-}  // namespace
-
-Eigen::Vector3d rotation_vector(const Eigen::Matrix3d& rotation) {
-  // From the quaternion: accurate for small angles, where the trace is not.
-  const Eigen::Quaterniond q(rotation);
-  const double sine = q.vec().norm();
-  if (sine < 1e-300) return Eigen::Vector3d::Zero();
-  const double angle = 2.0 * std::atan2(sine, std::abs(q.w()));
-  return (q.w() < 0.0 ? -1.0 : 1.0) * angle / sine * q.vec();
-}
-
-Eigen::Matrix3d rotation_of(const Eigen::Vector3d& vector) {
-  const double angle = vector.norm();
-  if (angle == 0.0) return Eigen::Matrix3d::Identity();
-  return Eigen::AngleAxisd(angle, vector / angle).toRotationMatrix();
-}
-
-Eigen::Matrix3d spin_to_vector(const Eigen::Vector3d& theta) {
-  const double angle = theta.norm();
-  const double eta = angle < 0.05 ? 1.0 / 12.0 + angle * angle / 720.0  // next term angle⁴/30240
-                                  : (1.0 - 0.5 * angle / std::tan(0.5 * angle)) / (angle * angle);
-  const Eigen::Matrix3d s = cross_matrix(theta);
-  return Eigen::Matrix3d::Identity() - 0.5 * s + eta * s * s;
-}
-
-namespace {
 
 struct Means {
   Eigen::Vector3d start_m, displacement_m;
@@ -235,6 +205,29 @@ Eigen::MatrixXd tangent(const Eigen::MatrixXd& stiffness, const Eigen::MatrixXd&
 }
 
 }  // namespace
+
+Eigen::Vector3d rotation_vector(const Eigen::Matrix3d& rotation) {
+  // From the quaternion: accurate for small angles, where the trace is not.
+  const Eigen::Quaterniond q(rotation);
+  const double sine = q.vec().norm();
+  if (sine < 1e-300) return Eigen::Vector3d::Zero();
+  const double angle = 2.0 * std::atan2(sine, std::abs(q.w()));
+  return (q.w() < 0.0 ? -1.0 : 1.0) * angle / sine * q.vec();
+}
+
+Eigen::Matrix3d rotation_of(const Eigen::Vector3d& vector) {
+  const double angle = vector.norm();
+  if (angle == 0.0) return Eigen::Matrix3d::Identity();
+  return Eigen::AngleAxisd(angle, vector / angle).toRotationMatrix();
+}
+
+Eigen::Matrix3d spin_to_vector(const Eigen::Vector3d& theta) {
+  const double angle = theta.norm();
+  const double eta = angle < 0.05 ? 1.0 / 12.0 + angle * angle / 720.0  // next term angle⁴/30240
+                                  : (1.0 - 0.5 * angle / std::tan(0.5 * angle)) / (angle * angle);
+  const Eigen::Matrix3d s = cross_matrix(theta);
+  return Eigen::Matrix3d::Identity() - 0.5 * s + eta * s * s;
+}
 
 Response respond(const Element& element, const Motion& motion, bool with_tangent) {
   const std::size_t p = element.start_m.size();

@@ -156,6 +156,17 @@ void deform(const Model& model, const std::vector<int>& stays, const Eigen::Matr
   state.strained = std::move(c.strained);
 }
 
+/// Least squares over the free unknowns alone, the others zero.
+Eigen::VectorXd solve_free(const Eigen::MatrixXd& a, const Eigen::VectorXd& b, const std::vector<bool>& is_free) {
+  std::vector<Eigen::Index> columns;
+  for (std::size_t i = 0; i < is_free.size(); ++i)
+    if (is_free[i]) columns.push_back(static_cast<Eigen::Index>(i));
+  const Eigen::VectorXd z = a(Eigen::indexing::all, columns).colPivHouseholderQr().solve(b);
+  Eigen::VectorXd x = Eigen::VectorXd::Zero(a.cols());
+  x(columns) = z;
+  return x;
+}
+
 }  // namespace
 
 Term initial_tension_stiffness(const Model& model, const linalg::SparseMatrix& pattern, const DofMap& map) {
@@ -227,21 +238,6 @@ PrestressState prestress_of(const Model& base, const DofMap& map, const linalg::
   if (model.prestress.displacements == Displacements::large && state.status.converged) deform(model, stays, w, weight, state);
   return state;
 }
-
-namespace {
-
-/// Least squares over the free unknowns alone, the others zero.
-Eigen::VectorXd solve_free(const Eigen::MatrixXd& a, const Eigen::VectorXd& b, const std::vector<bool>& is_free) {
-  std::vector<Eigen::Index> columns;
-  for (std::size_t i = 0; i < is_free.size(); ++i)
-    if (is_free[i]) columns.push_back(static_cast<Eigen::Index>(i));
-  const Eigen::VectorXd z = a(Eigen::indexing::all, columns).colPivHouseholderQr().solve(b);
-  Eigen::VectorXd x = Eigen::VectorXd::Zero(a.cols());
-  x(columns) = z;
-  return x;
-}
-
-}  // namespace
 
 BoundedLeastSquares solve_bounded_least_squares(const Eigen::MatrixXd& a, const Eigen::VectorXd& b, double lower) {
   // y = x - lower >= 0 turns the bound into Lawson and Hanson's; columns of unit length make one tolerance serve all.
