@@ -41,9 +41,9 @@ Status run(const steps::SensitivityConfig& config, const dynamics::ReadModel& re
   const sensitivity::Identifiability identified = sensitivity::identifiability(scaled, config.singular_value_cutoff);
 
   // 4. Tables, and the outcome in words.
-  steps::write_tables(loaded.system.parameters, found, selection, identified, config, context.out);
-  for (const std::string& line : steps::sensitivity_report(loaded.system.parameters, found, selection, identified, config))
-    context.say(line);
+  const steps::SensitivityOutcome outcome{loaded.system.parameters, found, selection, identified};
+  steps::write_tables(outcome, config, context.out);
+  for (const std::string& line : steps::sensitivity_report(outcome, config)) context.say(line);
   return found.status;
 }
 

@@ -47,15 +47,15 @@ Status run(const steps::UpdatingConfig& asked, const steps::UpdatingInputs& read
   for (auto& row : matching::compare("after", measured, modes_after.frequency_Hz, followed)) comparison.push_back(row);
 
   // 5. Tables, the model, and the outcome in words.
-  steps::write_updating(before.system.parameters, active, comparison, config.common_pairs, result, context);
-  if (!selected.empty()) steps::write_selected(before.system.parameters, selected, comparison, update(selected, {}), context);
+  steps::write_updating({before.system.parameters, active, result}, comparison, config.common_pairs, context);
+  if (!selected.empty()) steps::write_selected({before.system.parameters, selected, update(selected, {})}, comparison, context);
   steps::write_mac(measured, followed, context.out);
   model_io::write_modes(model_io::published_modes(after.fe_model(), after.system, modes_after), context.out);
   model_io::save_model(before, result.theta, context.out / "model");
   if (result.regularised) model_io::save_model(before, result.regularised->theta, context.out / "regularised_model");
-  for (const std::string& line : steps::report_lines(before.system.parameters, active, result)) context.say(line);
+  for (const std::string& line : steps::report_lines({before.system.parameters, active, result})) context.say(line);
   steps::report_weighing(context, {before, active, measured, pairing, rows, result});
-  steps::warn_of_fit(context, measured, comparison, before.system.parameters, active, result);
+  steps::warn_of_fit(context, measured, comparison, {before.system.parameters, active, result});
   context.say(updating::summary_line(comparison, account));
   return result.status.converged ? matching::outcome(modes_after.status, account) : result.status;
 }

@@ -18,9 +18,9 @@ struct Search {
   const Refresh& refresh;
   const UpdatingOptions& options;
   ResidualDefinition definition;
-  Box box;
   std::shared_ptr<const fe::ParametricSystem> initial_system;  ///< prestress of the initial values
-  Surrogate surrogate;
+  Box box = {};
+  Surrogate surrogate = {};
 };
 
 struct SearchEnd {

@@ -44,6 +44,16 @@ struct Rows {
   void add(double value) { row[filled++] = value; }
 };
 
+using Eigen::MatrixXd;
+
+constexpr double kRangeStep =
+    1e-5;  ///< [-] of a range: a difference of matrices keeps ten digits, and geometry is linear over such a step
+constexpr int kModesBeyond = 3;  ///< modes solved for above the last known one, so that the known ones converge
+
+VectorXd quadratic_forms(const linalg::SparseMatrix& lower, const MatrixXd& shapes) {
+  return shapes.cwiseProduct(linalg::symmetric_product(lower, shapes)).colwise().sum();
+}
+
 }  // namespace
 
 double mass_of_groups(const fe::Model& model, const std::vector<std::string>& groups) {
@@ -122,20 +132,6 @@ VectorXd deviation_changes(const StructureAnswer& answer, const StructureAnswer&
   }
   return rows.row;
 }
-
-namespace {
-
-using Eigen::MatrixXd;
-
-constexpr double kRangeStep =
-    1e-5;  ///< [-] of a range: a difference of matrices keeps ten digits, and geometry is linear over such a step
-constexpr int kModesBeyond = 3;  ///< modes solved for above the last known one, so that the known ones converge
-
-VectorXd quadratic_forms(const linalg::SparseMatrix& lower, const MatrixXd& shapes) {
-  return shapes.cwiseProduct(linalg::symmetric_product(lower, shapes)).colwise().sum();
-}
-
-}  // namespace
 
 struct StructureFit::Solved {
   fe::PrestressState state;

@@ -80,6 +80,32 @@ MatrixXd slope_times(const std::vector<fe::Term>& terms, const std::vector<Share
   return sum;
 }
 
+using Eigen::VectorXd;
+
+/// Directions that are smaller than this part of the largest snapshot are left out of the basis. The resulting error of a
+/// frequency is proportional to the square of this number, and the correction by the full system removes it at x_k.
+constexpr double kLoss = 1e-4;
+
+/// K^-1 (dK - lambda dM) phi per normalised parameter, for the modes up to the highest compared one.
+MatrixXd static_answers(const fe::ParametricSystem& system, const ResidualDefinition& definition, const VectorXd& theta,
+                        const dynamics::EigenModes& modes) {
+  Index count = 0;
+  for (const FrequencyTarget& target : definition.targets) count = std::max<Index>(count, target.reference_mode + 1);
+  count = std::min(count, modes.shapes.cols());
+  linalg::Cholesky factor;
+  if (!factor.factorize(system.stiffness(theta)).converged) return MatrixXd(system.size(), 0);  // a free structure
+  const MatrixXd phi = modes.shapes.leftCols(count);
+  MatrixXd answers(system.size(), count * std::ssize(definition.active));
+  for (std::size_t j = 0; j < definition.active.size(); ++j) {
+    const int p = definition.active[j];
+    const MatrixXd force = system.stiffness_derivative_times(theta, p, phi) -
+                           system.mass_derivative_times(theta, p, phi) * modes.eigenvalue.head(count).asDiagonal();
+    const auto at = static_cast<Index>(j);
+    answers.middleCols(at * count, count) = definition.scale(at) * factor.solve(force);
+  }
+  return answers;
+}
+
 }  // namespace
 
 ReducedSystem::ReducedSystem(std::shared_ptr<const fe::ParametricSystem> system, std::shared_ptr<const MatrixXd> basis,
@@ -163,36 +189,6 @@ MatrixXd orthonormal_basis(const MatrixXd& vectors, const linalg::SparseMatrix& 
   }
   return basis;
 }
-
-namespace {
-
-using Eigen::VectorXd;
-
-/// Directions that are smaller than this part of the largest snapshot are left out of the basis. The resulting error of a
-/// frequency is proportional to the square of this number, and the correction by the full system removes it at x_k.
-constexpr double kLoss = 1e-4;
-
-/// K^-1 (dK - lambda dM) phi per normalised parameter, for the modes up to the highest compared one.
-MatrixXd static_answers(const fe::ParametricSystem& system, const ResidualDefinition& definition, const VectorXd& theta,
-                        const dynamics::EigenModes& modes) {
-  Index count = 0;
-  for (const FrequencyTarget& target : definition.targets) count = std::max<Index>(count, target.reference_mode + 1);
-  count = std::min(count, modes.shapes.cols());
-  linalg::Cholesky factor;
-  if (!factor.factorize(system.stiffness(theta)).converged) return MatrixXd(system.size(), 0);  // a free structure
-  const MatrixXd phi = modes.shapes.leftCols(count);
-  MatrixXd answers(system.size(), count * std::ssize(definition.active));
-  for (std::size_t j = 0; j < definition.active.size(); ++j) {
-    const int p = definition.active[j];
-    const MatrixXd force = system.stiffness_derivative_times(theta, p, phi) -
-                           system.mass_derivative_times(theta, p, phi) * modes.eigenvalue.head(count).asDiagonal();
-    const auto at = static_cast<Index>(j);
-    answers.middleCols(at * count, count) = definition.scale(at) * factor.solve(force);
-  }
-  return answers;
-}
-
-}  // namespace
 
 std::shared_ptr<const MatrixXd> modal_basis(const std::shared_ptr<const fe::ParametricSystem>& system,
                                             const ResidualDefinition& definition, const MatrixXd& points) {

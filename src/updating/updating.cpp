@@ -172,12 +172,8 @@ UpdatingResult update(const fe::ParametricSystem& start, const Refresh& refresh,
                       const std::function<void(int done, int of)>& progress, const MeasuredRows& rows) {
   TWINDECK_ASSERT(options.starts >= 1 && options.outer_iterations >= 1 && options.max_iterations >= 1);
   check_input(start, active, targets);
-  Search search{refresh,
-                options,
-                define_residuals(start, active, targets, options),
-                {},
-                std::make_shared<const fe::ParametricSystem>(start),
-                {}};
+  Search search{refresh, options, define_residuals(start, active, targets, options),
+                std::make_shared<const fe::ParametricSystem>(start)};
   ResidualDefinition& definition = search.definition;
   search.box = {normalised(start, definition, &fe::Parameter::lower), normalised(start, definition, &fe::Parameter::upper)};
   const Eigen::VectorXd x0 = normalised(start, definition, &fe::Parameter::initial);

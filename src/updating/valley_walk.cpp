@@ -34,6 +34,39 @@ std::vector<Index> movable(const VectorXd& gradient, const MatrixXd& per_range, 
   return free;
 }
 
+constexpr int most_walks = 20;           // a curved valley needs one more walk for each digit or two
+constexpr double worth_a_walk = 1e-5;    // [ranges] shortest walk; the end of a linearised valley is known to 1e-6
+constexpr double shortest_share = 0.05;  // [-] of a step; if the step must be cut further, the valley is too curved
+
+constexpr double probe = 0.1;  // [ranges] length of a probe: far above a search's tolerance, and still inside a curved valley
+constexpr double least_probe = 0.01;  // [ranges] shortest probe; with less room the bounds limit a direction
+constexpr double stays_away = 0.5;    // [-] part of the probe that the end must stay away from the start
+
+// Signed distance from x along a direction to the box, on the side with more room, in ranges and at most `probe`.
+double way_along(const Eigen::VectorXd& direction, const Eigen::VectorXd& x, const Box& box) {
+  const Eigen::ArrayXd range = box.upper - box.lower;
+  double up = probe, down = probe;
+  for (Eigen::Index j = 0; j < x.size(); ++j) {
+    if (direction(j) == 0.0) continue;
+    const double above = (box.upper(j) - x(j)) / range(j) / std::abs(direction(j)),
+                 below = (x(j) - box.lower(j)) / range(j) / std::abs(direction(j));
+    up = std::min(up, direction(j) > 0.0 ? above : below);
+    down = std::min(down, direction(j) > 0.0 ? below : above);
+  }
+  return up >= down ? up : -down;
+}
+
+// Joins a search and its continuation; the records of the continuation follow those of the first.
+SearchEnd joined(const SearchEnd& first, SearchEnd next) {
+  for (IterationRecord& record : next.history) record.outer += first.result.outer;
+  next.history.insert(next.history.begin(), first.history.begin(), first.history.end());
+  next.result.initial = first.result.initial;
+  next.result.iterations += first.result.iterations;
+  next.result.solves += first.result.solves;
+  next.result.outer += first.result.outer;
+  return next;
+}
+
 }  // namespace
 
 double Sight::least_change(double largest) const { return std::sqrt(optimality_tolerance * negligible * largest); }
@@ -110,43 +143,6 @@ int preferred_end(const std::vector<EndPoint>& ends, const std::vector<int>& opt
   const bool valley = flat_directions(end.residual, end.jacobian, end.x, box, sight).cols() > 0;
   return valley ? nearest : optimum[static_cast<std::size_t>(nearest)];
 }
-
-namespace {
-
-constexpr int most_walks = 20;           // a curved valley needs one more walk for each digit or two
-constexpr double worth_a_walk = 1e-5;    // [ranges] shortest walk; the end of a linearised valley is known to 1e-6
-constexpr double shortest_share = 0.05;  // [-] of a step; if the step must be cut further, the valley is too curved
-
-constexpr double probe = 0.1;  // [ranges] length of a probe: far above a search's tolerance, and still inside a curved valley
-constexpr double least_probe = 0.01;  // [ranges] shortest probe; with less room the bounds limit a direction
-constexpr double stays_away = 0.5;    // [-] part of the probe that the end must stay away from the start
-
-// Signed distance from x along a direction to the box, on the side with more room, in ranges and at most `probe`.
-double way_along(const Eigen::VectorXd& direction, const Eigen::VectorXd& x, const Box& box) {
-  const Eigen::ArrayXd range = box.upper - box.lower;
-  double up = probe, down = probe;
-  for (Eigen::Index j = 0; j < x.size(); ++j) {
-    if (direction(j) == 0.0) continue;
-    const double above = (box.upper(j) - x(j)) / range(j) / std::abs(direction(j)),
-                 below = (x(j) - box.lower(j)) / range(j) / std::abs(direction(j));
-    up = std::min(up, direction(j) > 0.0 ? above : below);
-    down = std::min(down, direction(j) > 0.0 ? below : above);
-  }
-  return up >= down ? up : -down;
-}
-
-// Joins a search and its continuation; the records of the continuation follow those of the first.
-SearchEnd joined(const SearchEnd& first, SearchEnd next) {
-  for (IterationRecord& record : next.history) record.outer += first.result.outer;
-  next.history.insert(next.history.begin(), first.history.begin(), first.history.end());
-  next.result.initial = first.result.initial;
-  next.result.iterations += first.result.iterations;
-  next.result.solves += first.result.solves;
-  next.result.outer += first.result.outer;
-  return next;
-}
-
-}  // namespace
 
 Sight sight_of(const Search& search) {
   return {search.definition.negligible_residual(), search.options.optimality_tolerance, search.options.bound_tolerance};

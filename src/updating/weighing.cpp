@@ -57,22 +57,20 @@ MeasuredRows weighed_rows(const UpdatingSettings& config, const matching::Measur
   for (std::size_t r = 0; r < measured.rows.size(); ++r) {
     const matching::MeasuredRow& row = measured.rows[r];
     const int t = target[static_cast<std::size_t>(row.mode)];
-    if (t < 0 || row.dof >= 0) continue;
-    taken[static_cast<std::size_t>(t)] = static_cast<Index>(r);
-    own_error[static_cast<std::size_t>(t)] = config.frequency_model_error * row.value;
+    if (t < 0) continue;
+    if (row.dof < 0) {
+      taken[static_cast<std::size_t>(t)] = static_cast<Index>(r);
+      own_error[static_cast<std::size_t>(t)] = config.frequency_model_error * row.value;
+    } else if (config.weighs_shapes()) {
+      rows.shape.push_back({t, static_cast<int>(row.dof), row.imaginary, row.value});
+      taken.push_back(static_cast<Index>(r));
+      own_error.push_back(config.shape_model_error * largest_component(measured, row.mode));
+    }
   }
   if (config.weighs_shapes()) {
     rows.channels = matching::sensor_vectors(measured, loaded, config.sensor_tolerance_m);
     for (const matching::ModePair& pair : pairing.pairs)
       rows.span.push_back(close_modes(modes.frequency_Hz, pair.numerical, config.cluster_gap));
-    for (std::size_t r = 0; r < measured.rows.size(); ++r) {
-      const matching::MeasuredRow& row = measured.rows[r];
-      const int t = target[static_cast<std::size_t>(row.mode)];
-      if (t < 0 || row.dof < 0) continue;
-      rows.shape.push_back({t, static_cast<int>(row.dof), row.imaginary, row.value});
-      taken.push_back(static_cast<Index>(r));
-      own_error.push_back(config.shape_model_error * largest_component(measured, row.mode));
-    }
   }
   rows.covariance = measured.covariance(taken, taken);
   for (std::size_t i = 0; i < own_error.size(); ++i)

@@ -127,6 +127,69 @@ std::string misfit_sentence(const Weighed& weighed, const Posterior& posterior) 
          "'s: it may be reversed, exchanged or mis-scaled (s9_diagnosis finds out, --correct puts it right)";
 }
 
+constexpr double named_share = 0.1;  // [-] component of a unit direction; parameters with smaller ones are not named
+constexpr double at_rest = 1e-6;     // [ranges] a parameter this near to its initial value has not moved
+
+/// The component that a direction consists of, -1 for several.
+Index only_component(const Eigen::VectorXd& direction) {
+  Index largest = 0;
+  const double size = direction.cwiseAbs().maxCoeff(&largest);
+  return direction.norm() - size < named_share * named_share * size ? largest : -1;
+}
+
+std::string sentence_of_one(const Weighed& weighed, Index j) {
+  const fe::Parameter& parameter = weighed.parameter(j);
+  const double value = weighed.result.theta(weighed.active[static_cast<std::size_t>(j)]);
+  const bool stays = std::abs(value - parameter.initial) <= at_rest * (parameter.upper - parameter.lower);
+  return fmt::format(
+      "the data do not determine {}: nothing that is fitted depends on it, so that {}. Leave it out of `parameters`, or "
+      "measure what depends on it",
+      parameter.name,
+      stays ? fmt::format("it stays at its initial value {:.6g}", parameter.initial)
+            : fmt::format("its value {:.6g} means nothing", value));
+}
+
+/// A single direction is given with steps of one standard deviation of the ranges, the first step upwards. Of several
+/// directions only the names are given: their steps differ between processors.
+std::string sentence_of_several(const Weighed& weighed, const Eigen::MatrixXd& directions) {
+  std::vector<std::string> names, steps;
+  double sign = 0.0;
+  for (Index j = 0; j < directions.rows(); ++j) {
+    if (directions.row(j).norm() < named_share) continue;
+    const fe::Parameter& parameter = weighed.parameter(j);
+    if (sign == 0.0) sign = std::copysign(1.0, directions(j, 0));
+    names.push_back(parameter.name);
+    const double step = sign * directions(j, 0) * (parameter.upper - parameter.lower) / std::sqrt(12.0);
+    steps.push_back(fmt::format("{} by {:+.3g}", parameter.name, step));
+  }
+  const bool one = directions.cols() == 1;
+  return fmt::format(
+      "flat {}: {} changes nothing that is fitted, so that the data do not determine {} one by one. Of all values that fit as "
+      "well, those nearest the initial ones are given. Update fewer of them, or measure more",
+      one ? "direction" : "directions",
+      one ? fmt::format("moving {} together", fmt::join(steps, " and "))
+          : fmt::format("moving parameters together in {} ways", directions.cols()),
+      fmt::join(names, ", "));
+}
+
+/// Shift of each paired frequency, in its standard deviations, over half the range of each active parameter.
+Eigen::MatrixXd scaled_shifts(const dynamics::LoadedModel& loaded, const dynamics::EigenModes& modes,
+                              const std::vector<int>& active, const matching::Measured& measured,
+                              const matching::Pairing& pairing) {
+  const Eigen::MatrixXd exact = sensitivity::frequency_jacobian(loaded.system, loaded.theta, modes);
+  Eigen::MatrixXd shifts(static_cast<Index>(pairing.pairs.size()), static_cast<Index>(active.size()));
+  for (Index i = 0; i < shifts.rows(); ++i) {
+    const matching::ModePair& pair = pairing.pairs[static_cast<std::size_t>(i)];
+    for (Index j = 0; j < shifts.cols(); ++j) {
+      const int p = active[static_cast<std::size_t>(j)];
+      const fe::Parameter& parameter = loaded.system.parameters[static_cast<std::size_t>(p)];
+      shifts(i, j) = exact(pair.numerical, p) * 0.5 * (parameter.upper - parameter.lower) /
+                     measured.modes.frequency_std_Hz[pair.experimental];
+    }
+  }
+  return shifts;
+}
+
 }  // namespace
 
 std::vector<WeighedRow> weighed_row_list(const Weighed& weighed) {
@@ -185,55 +248,6 @@ void say_flat_frequencies(Reporter& reporter, const Weighed& weighed, const Post
       reporter.say(sentence);
 }
 
-namespace {
-
-constexpr double named_share = 0.1;  // [-] component of a unit direction; parameters with smaller ones are not named
-constexpr double at_rest = 1e-6;     // [ranges] a parameter this near to its initial value has not moved
-
-/// The component that a direction consists of, -1 for several.
-Index only_component(const Eigen::VectorXd& direction) {
-  Index largest = 0;
-  const double size = direction.cwiseAbs().maxCoeff(&largest);
-  return direction.norm() - size < named_share * named_share * size ? largest : -1;
-}
-
-std::string sentence_of_one(const Weighed& weighed, Index j) {
-  const fe::Parameter& parameter = weighed.parameter(j);
-  const double value = weighed.result.theta(weighed.active[static_cast<std::size_t>(j)]);
-  const bool stays = std::abs(value - parameter.initial) <= at_rest * (parameter.upper - parameter.lower);
-  return fmt::format(
-      "the data do not determine {}: nothing that is fitted depends on it, so that {}. Leave it out of `parameters`, or "
-      "measure what depends on it",
-      parameter.name,
-      stays ? fmt::format("it stays at its initial value {:.6g}", parameter.initial)
-            : fmt::format("its value {:.6g} means nothing", value));
-}
-
-/// A single direction is given with steps of one standard deviation of the ranges, the first step upwards. Of several
-/// directions only the names are given: their steps differ between processors.
-std::string sentence_of_several(const Weighed& weighed, const Eigen::MatrixXd& directions) {
-  std::vector<std::string> names, steps;
-  double sign = 0.0;
-  for (Index j = 0; j < directions.rows(); ++j) {
-    if (directions.row(j).norm() < named_share) continue;
-    const fe::Parameter& parameter = weighed.parameter(j);
-    if (sign == 0.0) sign = std::copysign(1.0, directions(j, 0));
-    names.push_back(parameter.name);
-    const double step = sign * directions(j, 0) * (parameter.upper - parameter.lower) / std::sqrt(12.0);
-    steps.push_back(fmt::format("{} by {:+.3g}", parameter.name, step));
-  }
-  const bool one = directions.cols() == 1;
-  return fmt::format(
-      "flat {}: {} changes nothing that is fitted, so that the data do not determine {} one by one. Of all values that fit as "
-      "well, those nearest the initial ones are given. Update fewer of them, or measure more",
-      one ? "direction" : "directions",
-      one ? fmt::format("moving {} together", fmt::join(steps, " and "))
-          : fmt::format("moving parameters together in {} ways", directions.cols()),
-      fmt::join(names, ", "));
-}
-
-}  // namespace
-
 std::vector<std::string> undetermined_sentences(const Weighed& weighed) {
   const Eigen::MatrixXd& flat = weighed.result.flat;
   std::vector<std::string> sentences;
@@ -252,28 +266,6 @@ std::vector<std::string> undetermined_sentences(const Weighed& weighed) {
 void warn_of_undetermined(Reporter& reporter, const Weighed& weighed) {
   for (const std::string& sentence : undetermined_sentences(weighed)) reporter.warn(sentence);
 }
-
-namespace {
-
-/// Shift of each paired frequency, in its standard deviations, over half the range of each active parameter.
-Eigen::MatrixXd scaled_shifts(const dynamics::LoadedModel& loaded, const dynamics::EigenModes& modes,
-                              const std::vector<int>& active, const matching::Measured& measured,
-                              const matching::Pairing& pairing) {
-  const Eigen::MatrixXd exact = sensitivity::frequency_jacobian(loaded.system, loaded.theta, modes);
-  Eigen::MatrixXd shifts(static_cast<Index>(pairing.pairs.size()), static_cast<Index>(active.size()));
-  for (Index i = 0; i < shifts.rows(); ++i) {
-    const matching::ModePair& pair = pairing.pairs[static_cast<std::size_t>(i)];
-    for (Index j = 0; j < shifts.cols(); ++j) {
-      const int p = active[static_cast<std::size_t>(j)];
-      const fe::Parameter& parameter = loaded.system.parameters[static_cast<std::size_t>(p)];
-      shifts(i, j) = exact(pair.numerical, p) * 0.5 * (parameter.upper - parameter.lower) /
-                     measured.modes.frequency_std_Hz[pair.experimental];
-    }
-  }
-  return shifts;
-}
-
-}  // namespace
 
 std::vector<std::vector<std::string>> indistinct_parameters(const dynamics::LoadedModel& loaded,
                                                             const dynamics::EigenModes& modes, const std::vector<int>& active,

@@ -36,8 +36,7 @@ double worst_difference(const Eigen::MatrixXd& a, const Eigen::MatrixXd& referen
   return worst;
 }
 
-/// `sensitivity.csv`: mode,parameter,unit,exact_Hz_per_unit,relative,richardson_Hz_per_unit,forward_eq6_Hz_per_unit,
-/// forward_truncation_Hz_per_unit; truncation = Eq. (6) minus extrapolated central difference; relative = d ln f / d ln p.
+/// truncation = Eq. (6) minus extrapolated central difference; relative = d ln f / d ln p.
 void write_sensitivity(const std::vector<fe::Parameter>& parameters, const sensitivity::Sensitivities& found,
                        const std::filesystem::path& file) {
   io::CsvWriter csv({"mode", "parameter", "unit", "exact_Hz_per_unit", "relative", "richardson_Hz_per_unit",
@@ -53,7 +52,6 @@ void write_sensitivity(const std::vector<fe::Parameter>& parameters, const sensi
   csv.save(file);
 }
 
-/// `selection.csv`: parameter,unit,score,rank,selected,published,reason
 void write_selection(const std::vector<fe::Parameter>& parameters, const std::vector<sensitivity::SelectedParameter>& selection,
                      const SensitivityConfig& config, const std::filesystem::path& file) {
   io::CsvWriter csv({"parameter", "unit", "score", "rank", "selected", "published", "reason"});
@@ -63,7 +61,6 @@ void write_selection(const std::vector<fe::Parameter>& parameters, const std::ve
   csv.save(file);
 }
 
-/// `singular_values.csv`: index,value,relative,identifiable
 void write_singular_values(const sensitivity::Identifiability& identified, const SensitivityConfig& config,
                            const std::filesystem::path& file) {
   io::CsvWriter csv({"index", "value", "relative", "identifiable"});
@@ -74,7 +71,6 @@ void write_singular_values(const sensitivity::Identifiability& identified, const
   csv.save(file);
 }
 
-/// `identifiability.csv`: parameter,identifiable,resolution
 void write_identifiability(const std::vector<fe::Parameter>& parameters, const sensitivity::Identifiability& identified,
                            const SensitivityConfig& config, const std::filesystem::path& file) {
   io::CsvWriter csv({"parameter", "identifiable", "resolution"});
@@ -145,19 +141,16 @@ void check_sensitivity_config(const SensitivityConfig& config, const std::vector
                        "the model has " + joined(names));
 }
 
-void write_tables(const std::vector<fe::Parameter>& parameters, const sensitivity::Sensitivities& found,
-                  const std::vector<sensitivity::SelectedParameter>& selection, const sensitivity::Identifiability& identified,
-                  const SensitivityConfig& config, const std::filesystem::path& folder) {
+void write_tables(const SensitivityOutcome& outcome, const SensitivityConfig& config, const std::filesystem::path& folder) {
+  const auto& [parameters, found, selection, identified] = outcome;
   write_sensitivity(parameters, found, folder / "sensitivity.csv");
   write_selection(parameters, selection, config, folder / "selection.csv");
   write_singular_values(identified, config, folder / "singular_values.csv");
   write_identifiability(parameters, identified, config, folder / "identifiability.csv");
 }
 
-std::vector<std::string> sensitivity_report(const std::vector<fe::Parameter>& parameters,
-                                            const sensitivity::Sensitivities& found,
-                                            const std::vector<sensitivity::SelectedParameter>& selection,
-                                            const sensitivity::Identifiability& identified, const SensitivityConfig& config) {
+std::vector<std::string> sensitivity_report(const SensitivityOutcome& outcome, const SensitivityConfig& config) {
+  const auto& [parameters, found, selection, identified] = outcome;
   std::vector<std::string> kept, only_here, only_there, resolved, lines;
   for (std::size_t p = 0; p < parameters.size(); ++p) {
     const std::string& name = parameters[p].name;

@@ -37,16 +37,18 @@ void check_sensitivity_config(const SensitivityConfig& config, const std::vector
 
 [[nodiscard]] std::vector<std::string> parameter_names(const std::vector<fe::Parameter>& parameters);
 
+/// What s5_sensitivity tells. Borrowed.
+struct SensitivityOutcome {
+  const std::vector<fe::Parameter>& parameters;
+  const sensitivity::Sensitivities& found;
+  const std::vector<sensitivity::SelectedParameter>& selection;  ///< one a parameter
+  const sensitivity::Identifiability& identified;
+};
+
 /// sensitivity.csv, selection.csv, singular_values.csv, identifiability.csv.
-void write_tables(const std::vector<fe::Parameter>& parameters, const sensitivity::Sensitivities& found,
-                  const std::vector<sensitivity::SelectedParameter>& selection, const sensitivity::Identifiability& identified,
-                  const SensitivityConfig& config, const std::filesystem::path& folder);
+void write_tables(const SensitivityOutcome& outcome, const SensitivityConfig& config, const std::filesystem::path& folder);
 
 /// For people: agreement of the three ways, selection beside the paper's, directions that the frequencies see.
-[[nodiscard]] std::vector<std::string> sensitivity_report(const std::vector<fe::Parameter>& parameters,
-                                                          const sensitivity::Sensitivities& found,
-                                                          const std::vector<sensitivity::SelectedParameter>& selection,
-                                                          const sensitivity::Identifiability& identified,
-                                                          const SensitivityConfig& config);
+[[nodiscard]] std::vector<std::string> sensitivity_report(const SensitivityOutcome& outcome, const SensitivityConfig& config);
 
 }  // namespace twindeck::steps

@@ -23,18 +23,13 @@ using Eigen::Index;
 
 const char* bound_name(int side) { return side < 0 ? "lower" : side > 0 ? "upper" : "none"; }
 
-const fe::Parameter& parameter_at(const std::vector<fe::Parameter>& parameters, const std::vector<int>& active, std::size_t j) {
-  return parameters[static_cast<std::size_t>(active[j])];
-}
-
 std::optional<double> change_pct(double initial, double final_value) {
   if (initial == 0.0) return std::nullopt;
   return 100.0 * (final_value / initial - 1.0);
 }
 
-std::vector<std::string> with_parameter_names(std::vector<std::string> columns, const std::vector<fe::Parameter>& parameters,
-                                              const std::vector<int>& active) {
-  for (std::size_t j = 0; j < active.size(); ++j) columns.push_back(parameter_at(parameters, active, j).name);
+std::vector<std::string> with_parameter_names(std::vector<std::string> columns, const Update& of) {
+  for (std::size_t j = 0; j < of.active.size(); ++j) columns.push_back(of.parameter(j).name);
   return columns;
 }
 
@@ -55,35 +50,32 @@ int optimum_number(const updating::UpdatingResult& result, const updating::Start
   return at == result.optima.end() ? 0 : static_cast<int>(at - result.optima.begin()) + 1;
 }
 
-void write_parameters(const std::vector<fe::Parameter>& parameters, const std::vector<int>& active,
-                      const updating::UpdatingResult& result, const std::filesystem::path& file) {
+void write_parameters(const Update& of, const std::filesystem::path& file) {
   io::CsvWriter csv({"parameter", "unit", "initial_value", "final_value", "change_pct", "lower", "upper", "bound"});
-  for (std::size_t j = 0; j < active.size(); ++j) {
-    const fe::Parameter& parameter = parameter_at(parameters, active, j);
-    const double value = result.theta(active[j]);
+  for (std::size_t j = 0; j < of.active.size(); ++j) {
+    const fe::Parameter& parameter = of.parameter(j);
+    const double value = of.result.theta(of.active[j]);
     csv.row({parameter.name, parameter.unit, parameter.initial, value, change_pct(parameter.initial, value), parameter.lower,
-             parameter.upper, bound_name(result.on_bound.at(j))});
+             parameter.upper, bound_name(of.result.on_bound.at(j))});
   }
   csv.save(file);
 }
 
-void write_smooth_bounds(const std::vector<fe::Parameter>& parameters, const std::vector<int>& active,
-                         const updating::UpdatingResult& result, const std::filesystem::path& file) {
-  if (result.smooth.theta.size() == 0) return;
+void write_smooth_bounds(const Update& of, const std::filesystem::path& file) {
+  if (of.result.smooth.theta.size() == 0) return;
   io::CsvWriter csv({"parameter", "unit", "final_value", "smooth_bounds_value", "difference_of_range"});
-  for (std::size_t j = 0; j < active.size(); ++j) {
-    const fe::Parameter& parameter = parameter_at(parameters, active, j);
-    const double value = result.theta(active[j]), smooth = result.smooth.theta(static_cast<Eigen::Index>(j));
+  for (std::size_t j = 0; j < of.active.size(); ++j) {
+    const fe::Parameter& parameter = of.parameter(j);
+    const double value = of.result.theta(of.active[j]), smooth = of.result.smooth.theta(static_cast<Eigen::Index>(j));
     csv.row({parameter.name, parameter.unit, value, smooth, (smooth - value) / (parameter.upper - parameter.lower)});
   }
   csv.save(file);
 }
 
-void write_history(const std::vector<fe::Parameter>& parameters, const std::vector<int>& active,
-                   const updating::UpdatingResult& result, const std::filesystem::path& file) {
-  io::CsvWriter csv(with_parameter_names(
-      {"start", "outer", "iteration", "cost", "projected_gradient", "step_norm", "trust_radius"}, parameters, active));
-  for (const updating::IterationRecord& record : result.history) {
+void write_history(const Update& of, const std::filesystem::path& file) {
+  io::CsvWriter csv(
+      with_parameter_names({"start", "outer", "iteration", "cost", "projected_gradient", "step_norm", "trust_radius"}, of));
+  for (const updating::IterationRecord& record : of.result.history) {
     std::vector<io::Cell> cells = {record.start,    record.outer, record.iteration, record.cost,
                                    record.gradient, record.step,  record.radius};
     for (const double x : record.theta) cells.emplace_back(x);
@@ -92,13 +84,12 @@ void write_history(const std::vector<fe::Parameter>& parameters, const std::vect
   csv.save(file);
 }
 
-void write_starts(const std::vector<fe::Parameter>& parameters, const std::vector<int>& active,
-                  const updating::UpdatingResult& result, const std::filesystem::path& file) {
+void write_starts(const Update& of, const std::filesystem::path& file) {
   io::CsvWriter csv(with_parameter_names(
-      {"start", "cost", "projected_gradient_relative", "iterations", "converged", "optimum", "message"}, parameters, active));
-  for (std::size_t k = 0; k < result.starts.size(); ++k) {
-    const updating::StartResult& start = result.starts[k];
-    const int optimum = optimum_number(result, start);
+      {"start", "cost", "projected_gradient_relative", "iterations", "converged", "optimum", "message"}, of));
+  for (std::size_t k = 0; k < of.result.starts.size(); ++k) {
+    const updating::StartResult& start = of.result.starts[k];
+    const int optimum = optimum_number(of.result, start);
     std::vector<io::Cell> cells = {k,
                                    start.cost,
                                    start.relative_projected_gradient,
@@ -106,7 +97,7 @@ void write_starts(const std::vector<fe::Parameter>& parameters, const std::vecto
                                    start.converged ? 1 : 0,
                                    optimum > 0 ? io::Cell(optimum) : io::Cell(""),
                                    start.message};
-    for (Index j = 0; j < start.theta.size(); ++j) cells.emplace_back(start.theta(j) / result.scale(j));
+    for (Index j = 0; j < start.theta.size(); ++j) cells.emplace_back(start.theta(j) / of.result.scale(j));
     csv.row(cells);
   }
   csv.save(file);
@@ -181,15 +172,15 @@ std::string words_of_regularised(const std::vector<matching::ComparisonRow>& com
 }
 
 // Another update of the same pairs: `name`.csv and leave_one_out_`name`.csv. Returns the comparison with its frequencies.
-std::vector<matching::ComparisonRow> write_another(const std::string& name, const std::vector<fe::Parameter>& parameters,
-                                                   const std::vector<int>& active,
+std::vector<matching::ComparisonRow> write_another(const std::string& name, const Update& other,
                                                    const std::vector<matching::ComparisonRow>& comparison,
-                                                   const updating::UpdatingResult& other, const std::filesystem::path& folder) {
-  write_parameters(parameters, active, other, folder / (name + ".csv"));
+                                                   const std::filesystem::path& folder) {
+  write_parameters(other, folder / (name + ".csv"));
   std::vector<matching::ComparisonRow> own = comparison;
   const std::size_t pairs = own.size() / 2;
-  for (std::size_t i = 0; i < pairs; ++i) own[pairs + i].computed_Hz = other.frequency_after_Hz(static_cast<Eigen::Index>(i));
-  write_leave_one_out(own, pairs, other, folder / ("leave_one_out_" + name + ".csv"));
+  for (std::size_t i = 0; i < pairs; ++i)
+    own[pairs + i].computed_Hz = other.result.frequency_after_Hz(static_cast<Eigen::Index>(i));
+  write_leave_one_out(own, pairs, other.result, folder / ("leave_one_out_" + name + ".csv"));
   return own;
 }
 
@@ -243,33 +234,32 @@ void write_weighing(const updating::Weighed& weighed, const updating::Posterior&
 
 }  // namespace
 
-void write_updating(const std::vector<fe::Parameter>& parameters, const std::vector<int>& active,
-                    const std::vector<matching::ComparisonRow>& comparison, const std::vector<std::string>& common,
-                    const updating::UpdatingResult& result, runner::StepContext& context) {
+void write_updating(const Update& of, const std::vector<matching::ComparisonRow>& comparison,
+                    const std::vector<std::string>& common, runner::StepContext& context) {
+  const updating::UpdatingResult& result = of.result;
   const std::filesystem::path& folder = context.out;
-  write_parameters(parameters, active, result, folder / "parameters.csv");
+  write_parameters(of, folder / "parameters.csv");
   write_comparison(comparison, folder);
-  write_smooth_bounds(parameters, active, result, folder / "smooth_bounds.csv");
-  write_history(parameters, active, result, folder / "history.csv");
-  write_starts(parameters, active, result, folder / "starts.csv");
+  write_smooth_bounds(of, folder / "smooth_bounds.csv");
+  write_history(of, folder / "history.csv");
+  write_starts(of, folder / "starts.csv");
   write_costs(result, folder / "costs.csv");
   write_leave_one_out(comparison, comparison.size() / 2, result, folder / "leave_one_out.csv");
   if (result.regularised) {
-    write_another("regularised", parameters, active, comparison, *result.regularised, folder);
+    write_another("regularised", {of.parameters, of.active, *result.regularised}, comparison, folder);
     context.warn(words_of_regularised(comparison, result));
   }
   write_updating_summary(comparison, common, result, folder / "summary.csv");
 }
 
-void write_selected(const std::vector<fe::Parameter>& parameters, const std::vector<int>& selected,
-                    const std::vector<matching::ComparisonRow>& comparison, const updating::UpdatingResult& result,
-                    runner::StepContext& context) {
+void write_selected(const Update& of, const std::vector<matching::ComparisonRow>& comparison, runner::StepContext& context) {
+  const updating::UpdatingResult& result = of.result;
   if (result.starts.empty() || result.mode_after.empty()) {
     context.warn("the update of the parameters that s5_sensitivity selected did not end: " + result.status.message);
     return;
   }
-  const auto own = write_another("selected", parameters, selected, comparison, result, context.out);
-  const auto names = each_of(selected, [&](int p) { return parameters[static_cast<std::size_t>(p)].name; });
+  const auto own = write_another("selected", of, comparison, context.out);
+  const auto names = with_parameter_names({}, of);
   const std::string left_out =
       result.left_out.empty() ? "" : fmt::format(", {:.2f} % where left out", mean_left_out_pct(result, own));
   context.say(fmt::format("with the parameters that s5_sensitivity selected ({}): mean |error| {:.2f} %{}",
@@ -277,22 +267,22 @@ void write_selected(const std::vector<fe::Parameter>& parameters, const std::vec
 }
 
 void warn_of_fit(Reporter& reporter, const matching::Measured& measured, const std::vector<matching::ComparisonRow>& comparison,
-                 const std::vector<fe::Parameter>& parameters, const std::vector<int>& active,
-                 const updating::UpdatingResult& result) {
+                 const Update& of) {
+  const updating::UpdatingResult& result = of.result;
   std::vector<std::string> on_bounds;
-  for (std::size_t j = 0; j < active.size(); ++j)
+  for (std::size_t j = 0; j < of.active.size(); ++j)
     if (result.on_bound.at(j) != 0)
-      on_bounds.push_back(fmt::format("{} ({})", parameter_at(parameters, active, j).name, bound_name(result.on_bound[j])));
+      on_bounds.push_back(fmt::format("{} ({})", of.parameter(j).name, bound_name(result.on_bound[j])));
   matching::warn_of_hollow_fit(reporter, measured, comparison, on_bounds);
 }
 
-std::vector<std::string> report_lines(const std::vector<fe::Parameter>& parameters, const std::vector<int>& active,
-                                      const updating::UpdatingResult& result) {
+std::vector<std::string> report_lines(const Update& of) {
+  const updating::UpdatingResult& result = of.result;
   std::vector<std::string> lines;
   lines.push_back(fmt::format("{:<14} {:>13} {:>13} {:>9}  {}", "parameter", "initial", "final", "change", "bound"));
-  for (std::size_t j = 0; j < active.size(); ++j) {
-    const fe::Parameter& parameter = parameter_at(parameters, active, j);
-    const double value = result.theta(active[j]);
+  for (std::size_t j = 0; j < of.active.size(); ++j) {
+    const fe::Parameter& parameter = of.parameter(j);
+    const double value = result.theta(of.active[j]);
     const std::optional<double> change = change_pct(parameter.initial, value);
     const std::string percent = change ? fmt::format("{:+.2f} %", *change) : "";
     lines.push_back(fmt::format("{:<14} {:>13.6g} {:>13.6g} {:>9}  {}", parameter.name, parameter.initial, value, percent,

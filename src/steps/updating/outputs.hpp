@@ -11,6 +11,14 @@
 
 namespace twindeck::steps {
 
+/// An update, to be told.
+struct Update {
+  const std::vector<fe::Parameter>& parameters;  ///< of the model
+  const std::vector<int>& active;                ///< positions of those that were updated
+  const updating::UpdatingResult& result;
+  [[nodiscard]] const fe::Parameter& parameter(std::size_t j) const { return parameters[static_cast<std::size_t>(active[j])]; }
+};
+
 /// Writes
 ///  - `parameters.csv`: parameter,unit,initial_value,final_value,change_pct,lower,upper,bound (lower|upper|none), one row an
 ///    updated parameter; change_pct is empty where the initial value is 0
@@ -35,25 +43,20 @@ namespace twindeck::steps {
 ///    starts, of distinct optima, of parameters on a bound
 ///  - the comparison (comparison_tables.hpp)
 /// @param comparison  rows of the stages `before` and `after`, in the order of the targets
-void write_updating(const std::vector<fe::Parameter>& parameters, const std::vector<int>& active,
-                    const std::vector<matching::ComparisonRow>& comparison, const std::vector<std::string>& common,
-                    const updating::UpdatingResult& result, runner::StepContext& context);
+void write_updating(const Update& of, const std::vector<matching::ComparisonRow>& comparison,
+                    const std::vector<std::string>& common, runner::StepContext& context);
 
 /// The same update of the parameters that s5_sensitivity selected, beside that of a list: `selected.csv`, as parameters.csv,
 /// and `leave_one_out_selected.csv`; reports its mean error.
 /// @param comparison  of the list's update, in the order of the targets
-void write_selected(const std::vector<fe::Parameter>& parameters, const std::vector<int>& selected,
-                    const std::vector<matching::ComparisonRow>& comparison, const updating::UpdatingResult& result,
-                    runner::StepContext& context);
+void write_selected(const Update& of, const std::vector<matching::ComparisonRow>& comparison, runner::StepContext& context);
 
 /// Warns of defects that a good fit of frequencies hides (matching/hollow_fit.hpp), and of parameters on their bounds.
 void warn_of_fit(Reporter& reporter, const matching::Measured& measured, const std::vector<matching::ComparisonRow>& comparison,
-                 const std::vector<fe::Parameter>& parameters, const std::vector<int>& active,
-                 const updating::UpdatingResult& result);
+                 const Update& of);
 
 /// What was found, for people: values before and after, bounds hit, cost and optimality of each start.
-[[nodiscard]] std::vector<std::string> report_lines(const std::vector<fe::Parameter>& parameters,
-                                                    const std::vector<int>& active, const updating::UpdatingResult& result);
+[[nodiscard]] std::vector<std::string> report_lines(const Update& of);
 
 /// Writes, for an update with converged modes whose paired frequencies have standard deviations,
 ///  - `posterior.csv`: parameter,unit,final_value,std,std_with_misfit,prior_std,held,label; std empty for a parameter held by
