@@ -12,6 +12,8 @@ namespace {
 constexpr double kLeastSignature = 1e-9;  ///< [-] of an unknown's signature on whitened rows; smaller ones are rounding
 constexpr std::size_t kLongestMap = 40;   ///< locations, as many as a figure shows; the scores of others are chance
 
+constexpr double kNearBound = 0.02;  ///< [-] of a parameter's range; a parameter nearer to its end counts as on the bound
+
 }  // namespace
 
 std::vector<LocationScore> location_map(const Inference& inference, const Fit& fit, const std::vector<Scored>& ranking) {
@@ -38,12 +40,6 @@ std::vector<LocationScore> location_map(const Inference& inference, const Fit& f
   if (map.size() > kLongestMap) map.resize(kLongestMap);
   return map;
 }
-
-namespace {
-
-constexpr double kNearBound = 0.02;  ///< [-] of a parameter's range; a parameter nearer to its end counts as on the bound
-
-}  // namespace
 
 std::vector<std::string> parameters_on_bounds(const FeatureMap& map, const Fit& fit) {
   std::vector<std::string> names;

@@ -37,7 +37,7 @@ std::string nearest_support(const std::string& name, const std::vector<matching:
 
 std::vector<Finding> updating_findings(const std::vector<Claim>& claims) {
   std::vector<Finding> out;
-  Finding bounds{"bounds", "", {}, {}, ""}, shapes{"shapes", "", {}, {}, ""}, errors{"frequencies", "", {}, {}, ""};
+  Finding bounds{"bounds", ""}, shapes{"shapes", ""}, errors{"frequencies", ""};
   int parameters = 0, macs = 0, frequencies = 0;
   double squares = 0.0, worst = 0.0;
   for (const Claim& claim : claims) {
@@ -148,9 +148,7 @@ std::vector<ChannelFactor> channel_factors(const std::vector<Claim>& claims) {
   }
   std::map<std::string, std::vector<double>> rest;
   for (const auto& [record, values] : by_record) {
-    std::vector<double> all;
-    for (const auto& [channel, value] : values) all.push_back(value);
-    const double level = median(all);
+    const double level = median(each_of(values, [](const auto& of_channel) { return of_channel.second; }));
     for (const auto& [channel, value] : values) rest[channel].push_back(value - level);
   }
   std::vector<ChannelFactor> out;
@@ -183,7 +181,7 @@ std::vector<Finding> account_of(const std::vector<Claim>& claims, const FeatureS
   for (const ChannelFactor& f : channel_factors(claims)) {
     const bool one_sided = f.lowest > 1.0 || f.highest < 1.0;  // in all records, not only on average
     if (f.p_value > kAlpha || f.records < 2 || !one_sided) continue;
-    Finding found{"channel", "", {f.channel}, {"gain@channel:" + f.channel}, ""};
+    Finding found{"channel", "", {f.channel}, {"gain@channel:" + f.channel}};
     const std::string support = nearest_support(f.channel, channels, places);
     if (!support.empty()) found.candidates.push_back("brg@" + support);
     found.split_by = fmt::format("mode shapes with {} among the channels, or a calibrated sensor beside it", f.channel);

@@ -40,9 +40,9 @@ struct ChannelFactor {
 struct Finding {
   std::string kind;  ///< "bounds", "frequencies", "shapes", "channel", "dampers"
   std::string text;
-  std::vector<std::string> names;       ///< parameters, modes or channels concerned
-  std::vector<std::string> candidates;  ///< causes with such an effect, as in a cluster; may be empty
-  std::string split_by;                 ///< measurement that distinguishes the candidates
+  std::vector<std::string> names = {};       ///< parameters, modes or channels concerned
+  std::vector<std::string> candidates = {};  ///< causes with such an effect, as in a cluster; may be empty
+  std::string split_by = {};                 ///< measurement that distinguishes the candidates
 };
 
 /// Findings from claims and rows, without odds: parameters of a published updating on bounds, remaining errors and MACs,

@@ -129,16 +129,22 @@ bool is_vertical(const Candidate& candidate, const ActionSpec& action) {
   return !(directions.cols() == 3 && directions.is_zero(2));
 }
 
-void add_prop(fe::Model& model, int node, bool vertical, double stiffness) {
+/// Springs along the global axes, or a vertical one alone. @param node2  -1: to the ground
+void add_springs(fe::Model& model, const std::string& group, long id, int node, int node2, bool vertical, double stiffness) {
   for (int d = vertical ? 2 : 0; d < 3; ++d) {
     fe::Spring spring;
-    spring.name = fmt::format("prop_{}_{}", model.nodes[static_cast<std::size_t>(node)].id, "xyz"[d]);
-    spring.group = "prop";
+    spring.name = fmt::format("{}_{}_{}", group, id, "xyz"[d]);
+    spring.group = group;
     spring.node = node;
+    spring.node2 = node2;
     spring.direction = Eigen::Vector3d::Unit(d);
     spring.stiffness = stiffness;
     model.springs.push_back(spring);
   }
+}
+
+void add_prop(fe::Model& model, int node, bool vertical, double stiffness) {
+  add_springs(model, "prop", model.nodes[static_cast<std::size_t>(node)].id, node, -1, vertical, stiffness);
 }
 
 /// A body on springs at a node: a new node that only translates, or only moves vertically.
@@ -149,16 +155,7 @@ void add_oscillator(fe::Model& model, int node, bool vertical, double mass, doub
   const auto body = static_cast<int>(model.nodes.size()) - 1;
   model.supports.push_back({"oscillator_" + std::to_string(id + 1), body, {vertical, vertical, false, true, true, true}});
   model.masses.push_back({"oscillator", body, mass, Eigen::Vector3d::Zero()});
-  for (int d = vertical ? 2 : 0; d < 3; ++d) {
-    fe::Spring spring;
-    spring.name = fmt::format("oscillator_{}_{}", id + 1, "xyz"[d]);
-    spring.group = "oscillator";
-    spring.node = body;
-    spring.node2 = node;
-    spring.direction = Eigen::Vector3d::Unit(d);
-    spring.stiffness = mass * std::pow(2.0 * M_PI * frequency_Hz, 2);
-    model.springs.push_back(spring);
-  }
+  add_springs(model, "oscillator", id + 1, body, node, vertical, mass * std::pow(2.0 * M_PI * frequency_Hz, 2));
 }
 
 /// A cause to be put into a finite element model, with the name of its location: "17" of "element:17".

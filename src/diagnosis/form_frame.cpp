@@ -37,6 +37,26 @@ std::vector<std::string> keys_of(const ActionSpec& action) {
   return {};
 }
 
+/// Contrast of a candidate that acts in some states only.
+int contrast_of_states(const Candidate& candidate, const std::vector<Contrast>& contrasts) {
+  const auto at = [&](const auto& is_it) {
+    const auto found = std::ranges::find_if(contrasts, is_it);
+    return found == contrasts.end() ? -1 : static_cast<int>(found - contrasts.begin());
+  };
+  const auto named = [&](const std::string& key) { return at([&](const Contrast& c) { return c.key == key; }); };
+  const std::string when = candidate.when.empty() ? kStateContrast + candidate.state : candidate.when;
+  if (const int own = named(when); own >= 0) return own;
+  // A cause that acts before a state has the contrast between that state and the earlier ones.
+  if (when.starts_with(kBeforeState)) {
+    const std::string state = when.substr(kBeforeState.size());
+    if (const int own = named("from " + state + " on"); own >= 0) return own;
+    return named(state);
+  }
+  // A cause that acts in the first state alone has the contrast between that state and all others.
+  const int others = at([](const Contrast& c) { return c.key.starts_with(kFromState); });
+  return others >= 0 ? others : at([](const Contrast& c) { return c.key.starts_with(kStateContrast); });
+}
+
 }  // namespace
 
 std::vector<Contrast> contrasts_of(const FeatureSet& features) {
@@ -64,30 +84,6 @@ std::vector<Contrast> contrasts_of(const FeatureSet& features) {
   for (std::size_t s = 1; s + 1 < states.size(); ++s) add(kFromState + states[s] + " on", s, states.size());
   return out;
 }
-
-namespace {
-
-/// Contrast of a candidate that acts in some states only.
-int contrast_of_states(const Candidate& candidate, const std::vector<Contrast>& contrasts) {
-  const auto at = [&](const auto& is_it) {
-    const auto found = std::ranges::find_if(contrasts, is_it);
-    return found == contrasts.end() ? -1 : static_cast<int>(found - contrasts.begin());
-  };
-  const auto named = [&](const std::string& key) { return at([&](const Contrast& c) { return c.key == key; }); };
-  const std::string when = candidate.when.empty() ? kStateContrast + candidate.state : candidate.when;
-  if (const int own = named(when); own >= 0) return own;
-  // A cause that acts before a state has the contrast between that state and the earlier ones.
-  if (when.starts_with(kBeforeState)) {
-    const std::string state = when.substr(kBeforeState.size());
-    if (const int own = named("from " + state + " on"); own >= 0) return own;
-    return named(state);
-  }
-  // A cause that acts in the first state alone has the contrast between that state and all others.
-  const int others = at([](const Contrast& c) { return c.key.starts_with(kFromState); });
-  return others >= 0 ? others : at([](const Contrast& c) { return c.key.starts_with(kStateContrast); });
-}
-
-}  // namespace
 
 std::vector<int> contrasts_of(const Candidate& candidate, const std::vector<Contrast>& contrasts) {
   std::vector<int> out;

@@ -191,6 +191,32 @@ VectorXd lowest_squares(const MatrixXd& k, const MatrixXd& m) {
   return Eigen::GeneralizedSelfAdjointEigenSolver<MatrixXd>(k, m, Eigen::EigenvaluesOnly).eigenvalues();
 }
 
+/// [%] Error of a frequency by the basis that is always allowed, equal to the least error of identification
+/// (scatter.frequency_floor).
+constexpr double kBasisErrorPct = 0.1;
+/// [-] Part of the model's form error that is also allowed: a tenth adds half a per cent to it, in squares.
+constexpr double kPartOfForm = 0.1;
+
+/// Positions in the model of the modes that the measured ones of a state are paired with, ascending.
+std::vector<int> paired_positions(const FeatureMap& map, const Fit& fit, const std::string& state) {
+  std::set<int> out;
+  const auto& modes = map.measured_modes();
+  for (std::size_t m = 0; m < std::min(modes.size(), fit.all.paired.size()); ++m) {
+    const auto& condition = map.features().condition_of(modes[m]);
+    if (condition.state == state && fit.all.paired[m] >= 0) out.insert(fit.all.paired[m]);
+  }
+  return {out.begin(), out.end()};
+}
+
+FullCheck of_modes(const FullCheck& all, std::vector<int> positions) {
+  std::erase_if(positions, [&](int p) { return p >= all.full_Hz.size(); });
+  FullCheck out{all.reduced_Hz(positions), all.full_Hz(positions), 0.0, all.message};
+  for (Eigen::Index i = 0; i < out.full_Hz.size(); ++i)
+    if (out.full_Hz[i] > 0.0)
+      out.largest_pct = std::max(out.largest_pct, 100.0 * std::abs(out.reduced_Hz[i] / out.full_Hz[i] - 1.0));
+  return out;
+}
+
 }  // namespace
 
 FullCheck check_against_full(const Structure& structure, const Places& places, const FeatureMap& map, const Fit& fit,
@@ -237,36 +263,6 @@ FullCheck check_against_full(const Structure& structure, const Places& places, c
       check.largest_pct = std::max(check.largest_pct, 100.0 * std::abs(check.reduced_Hz[i] / check.full_Hz[i] - 1.0));
   return check;
 }
-
-namespace {
-
-/// [%] Error of a frequency by the basis that is always allowed, equal to the least error of identification
-/// (scatter.frequency_floor).
-constexpr double kBasisErrorPct = 0.1;
-/// [-] Part of the model's form error that is also allowed: a tenth adds half a per cent to it, in squares.
-constexpr double kPartOfForm = 0.1;
-
-/// Positions in the model of the modes that the measured ones of a state are paired with, ascending.
-std::vector<int> paired_positions(const FeatureMap& map, const Fit& fit, const std::string& state) {
-  std::set<int> out;
-  const auto& modes = map.measured_modes();
-  for (std::size_t m = 0; m < std::min(modes.size(), fit.all.paired.size()); ++m) {
-    const auto& condition = map.features().condition_of(modes[m]);
-    if (condition.state == state && fit.all.paired[m] >= 0) out.insert(fit.all.paired[m]);
-  }
-  return {out.begin(), out.end()};
-}
-
-FullCheck of_modes(const FullCheck& all, std::vector<int> positions) {
-  std::erase_if(positions, [&](int p) { return p >= all.full_Hz.size(); });
-  FullCheck out{all.reduced_Hz(positions), all.full_Hz(positions), 0.0, all.message};
-  for (Eigen::Index i = 0; i < out.full_Hz.size(); ++i)
-    if (out.full_Hz[i] > 0.0)
-      out.largest_pct = std::max(out.largest_pct, 100.0 * std::abs(out.reduced_Hz[i] / out.full_Hz[i] - 1.0));
-  return out;
-}
-
-}  // namespace
 
 double allowed_basis_error_pct(const Diagnosis& result) {
   return std::max(kBasisErrorPct, result.form ? 100.0 * kPartOfForm * result.form->frequency.level : 0.0);

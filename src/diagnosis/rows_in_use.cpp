@@ -15,10 +15,17 @@ namespace twindeck::diagnosis {
 
 namespace {
 
+/// Positions of the rows that are not left out.
+template <typename LeftOut>
+std::vector<Eigen::Index> rows_without(const FeatureSet& features, const LeftOut& left_out) {
+  std::vector<Eigen::Index> kept;
+  for (std::size_t r = 0; r < features.rows.size(); ++r)
+    if (!left_out(features.rows[r])) kept.push_back(static_cast<Eigen::Index>(r));
+  return kept;
+}
+
 void keep(FeatureSet& features, const std::vector<Eigen::Index>& kept) {
-  std::vector<Row> rows;
-  for (const Eigen::Index r : kept) rows.push_back(features.rows[static_cast<std::size_t>(r)]);
-  features.rows = rows;
+  features.rows = each_of(kept, [&](Eigen::Index r) { return features.rows[static_cast<std::size_t>(r)]; });
   if (features.covariance.size() > 0) features.covariance = features.covariance(kept, kept).eval();
 }
 
@@ -41,14 +48,10 @@ void choose_rows(const RowChoice& choice, FeatureSet& features) {
   for (const Row& row : features.rows)
     if (row.type == RowType::frequency && choice.highest_Hz > 0.0 && row.value > choice.highest_Hz)
       high.insert({row.condition, row.mode});
-  std::vector<Eigen::Index> kept;
-  for (std::size_t r = 0; r < features.rows.size(); ++r) {
-    const Row& row = features.rows[r];
-    if (left_out(name_of(row.type))) continue;
-    if (row.type != RowType::stay_frequency && left_out("mode:" + row.mode)) continue;
-    if (row.type != RowType::stay_frequency && high.contains({row.condition, row.mode})) continue;
-    kept.push_back(static_cast<Eigen::Index>(r));
-  }
+  const std::vector<Eigen::Index> kept = rows_without(features, [&](const Row& row) {
+    if (left_out(name_of(row.type))) return true;
+    return row.type != RowType::stay_frequency && (left_out("mode:" + row.mode) || high.contains({row.condition, row.mode}));
+  });
   if (kept.empty()) throw InputError({"", 0, "left_out"}, "no row is left", "leave fewer out");
   keep(features, kept);
 }
@@ -60,7 +63,7 @@ std::optional<Finding> leave_out_unpaired(double least_mac, const ScatterOptions
   const auto base = map.base(map.standing());
   const Prediction prediction = map.predict(base, {}, false);
   std::set<std::pair<int, std::string>> unpaired;
-  Finding found{"unpaired", "", {}, {}, ""};
+  Finding found{"unpaired", ""};
   const auto stays = model.sets.find("stays");
   for (std::size_t m = 0; m < map.measured_modes().size(); ++m) {
     const MeasuredMode& mode = map.measured_modes()[m];
@@ -75,11 +78,9 @@ std::optional<Finding> leave_out_unpaired(double least_mac, const ScatterOptions
             name += fmt::format(", {}x{}", harmonic, stay.id);
     found.names.push_back(name + ")");
   }
-  std::vector<Eigen::Index> kept;
-  for (std::size_t r = 0; r < features.rows.size(); ++r)
-    if (!unpaired.contains({features.rows[r].condition, features.rows[r].mode}) ||
-        features.rows[r].type == RowType::stay_frequency)
-      kept.push_back(static_cast<Eigen::Index>(r));
+  const std::vector<Eigen::Index> kept = rows_without(features, [&](const Row& row) {
+    return row.type != RowType::stay_frequency && unpaired.contains({row.condition, row.mode});
+  });
   if (unpaired.empty()) return std::nullopt;
   if (kept.empty())
     throw InputError({"", 0, "least_mac"}, fmt::format("no measured mode has a MAC of {} with the model's", least_mac), "");
@@ -93,19 +94,14 @@ std::optional<Finding> leave_out_unpaired(double least_mac, const ScatterOptions
 
 std::optional<Finding> leave_out_imaginary(const ReducedModel& model, FeatureSet& features) {
   if (model.sets.contains("dampers")) return std::nullopt;
-  std::vector<Eigen::Index> kept;
-  for (std::size_t r = 0; r < features.rows.size(); ++r)
-    if (features.rows[r].type != RowType::shape_imag) kept.push_back(static_cast<Eigen::Index>(r));
+  const std::vector<Eigen::Index> kept = rows_without(features, [](const Row& row) { return row.type == RowType::shape_imag; });
   const std::size_t dropped = features.rows.size() - kept.size();
   if (dropped == 0 || kept.empty()) return std::nullopt;
   keep(features, kept);
   return Finding{"imaginary",
                  fmt::format("{} imaginary parts of shapes are left out: the model has no damper that could turn a shape "
                              "complex, so they tell errors of identification, most of modes that lie close",
-                             dropped),
-                 {},
-                 {},
-                 ""};
+                             dropped)};
 }
 
 bool has_rows_of_modes(const FeatureSet& features) {

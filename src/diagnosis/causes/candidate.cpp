@@ -4,12 +4,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
 #include <numeric>
 #include <set>
 
 #include "core/error.hpp"
-#include "core/lists.hpp"
 
 namespace twindeck::diagnosis {
 
@@ -192,8 +190,7 @@ double motion_of(const ReducedPlace& node, const ReducedModel& model) {
 /// motion.
 void leave_out_held_nodes(const ReducedModel& model, std::vector<Candidate>& found) {
   constexpr double held = 1e-3;
-  std::vector<double> motion;
-  for (const Candidate& candidate : found) motion.push_back(motion_of(*candidate.places[0], model));
+  const auto motion = each_of(found, [&](const Candidate& one) { return motion_of(*one.places[0], model); });
   const double least = motion.empty() ? 0.0 : held * *std::max_element(motion.begin(), motion.end());
   std::size_t at = 0;
   std::erase_if(found, [&](const Candidate&) { return motion[at++] < least; });

@@ -57,6 +57,34 @@ double chance(const Eigen::RowVectorXd& mac, const VisibleModes& modes, const Ex
   return std::clamp(covered / (high - low), least_chance, 1.0 - least_chance);
 }
 
+constexpr double twins_within = 0.02;  ///< [-] of ln f: mirror images differ by the scatter of their forces
+
+std::vector<const SwingingCable*> of(const std::vector<SwingingCable>& cables, const std::vector<int>& chosen) {
+  std::vector<const SwingingCable*> out;
+  for (const int i : chosen) out.push_back(&cables[static_cast<std::size_t>(i)]);
+  return out;
+}
+
+/// Single stays, and all sets of stays with equal frequencies.
+std::vector<std::vector<int>> groups(const std::vector<double>& own_Hz) {
+  std::vector<std::vector<int>> out;
+  for (std::size_t i = 0; i < own_Hz.size(); ++i) out.push_back({static_cast<int>(i)});
+  for (std::size_t i = 0; i < own_Hz.size(); ++i) {
+    std::vector<int> twins;
+    for (std::size_t j = 0; j < own_Hz.size(); ++j)
+      if (std::abs(std::log(own_Hz[j] / own_Hz[i])) <= twins_within) twins.push_back(static_cast<int>(j));
+    if (twins.size() > 1 && !contains(out, twins)) out.push_back(twins);
+  }
+  return out;
+}
+
+std::vector<int> joined(std::vector<int> a, const std::vector<int>& b) {
+  a.insert(a.end(), b.begin(), b.end());
+  std::sort(a.begin(), a.end());
+  a.erase(std::unique(a.begin(), a.end()), a.end());
+  return a;
+}
+
 }  // namespace
 
 ExplainedModes explain(const std::vector<MeasuredShape>& measured, const VisibleModes& modes, const ExplanationRule& rule) {
@@ -119,38 +147,6 @@ double frequency_scatter(const std::vector<MeasuredShape>& measured, const Visib
   if (off.empty()) return most_within;
   return std::clamp(2.0 * upper_median(off) / 0.6745, least_within, most_within);
 }
-
-namespace {
-
-constexpr double twins_within = 0.02;  ///< [-] of ln f: mirror images differ by the scatter of their forces
-
-std::vector<const SwingingCable*> of(const std::vector<SwingingCable>& cables, const std::vector<int>& chosen) {
-  std::vector<const SwingingCable*> out;
-  for (const int i : chosen) out.push_back(&cables[static_cast<std::size_t>(i)]);
-  return out;
-}
-
-/// Single stays, and all sets of stays with equal frequencies.
-std::vector<std::vector<int>> groups(const std::vector<double>& own_Hz) {
-  std::vector<std::vector<int>> out;
-  for (std::size_t i = 0; i < own_Hz.size(); ++i) out.push_back({static_cast<int>(i)});
-  for (std::size_t i = 0; i < own_Hz.size(); ++i) {
-    std::vector<int> twins;
-    for (std::size_t j = 0; j < own_Hz.size(); ++j)
-      if (std::abs(std::log(own_Hz[j] / own_Hz[i])) <= twins_within) twins.push_back(static_cast<int>(j));
-    if (twins.size() > 1 && !contains(out, twins)) out.push_back(twins);
-  }
-  return out;
-}
-
-std::vector<int> joined(std::vector<int> a, const std::vector<int>& b) {
-  a.insert(a.end(), b.begin(), b.end());
-  std::sort(a.begin(), a.end());
-  a.erase(std::unique(a.begin(), a.end()), a.end());
-  return a;
-}
-
-}  // namespace
 
 SwingingCable swinging_cable(const MatrixXd& stiffness, const MatrixXd& mass, const MatrixXd& end_motion, double highest_Hz) {
   const Index n = stiffness.rows() - 6;

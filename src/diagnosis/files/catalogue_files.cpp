@@ -5,7 +5,9 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <functional>
 #include <set>
+#include <utility>
 
 #include "core/error.hpp"
 #include "core/lists.hpp"
@@ -24,22 +26,12 @@ class Reader {
 
   Hypothesis read() {
     h_.file = file_.string();
-    for (const io::TomlEntry& entry : io::read_toml(file_)) {
-      if (entry.key == "hypothesis")
-        hypothesis(table(entry));
-      else if (entry.key == "location")
-        location(table(entry));
-      else if (entry.key == "parameter")
-        each(entry, [&](const auto& t) { parameter(t); });
-      else if (entry.key == "action")
-        each(entry, [&](const auto& t) { action(t); });
-      else if (entry.key == "needs")
-        needs(table(entry));
-      else if (entry.key == "report")
-        report(table(entry));
-      else
-        unknown(entry, {"hypothesis", "location", "parameter", "action", "needs", "report"});
-    }
+    take(io::read_toml(file_), {{"hypothesis", [&](const auto& e) { hypothesis(table(e)); }},
+                                {"location", [&](const auto& e) { location(table(e)); }},
+                                {"parameter", [&](const auto& e) { each(e, [&](const auto& t) { parameter(t); }); }},
+                                {"action", [&](const auto& e) { each(e, [&](const auto& t) { action(t); }); }},
+                                {"needs", [&](const auto& e) { needs(table(e)); }},
+                                {"report", [&](const auto& e) { report(table(e)); }}});
     if (h_.id.empty()) fail(1, "hypothesis.id", "is missing", "name the cause: [hypothesis] id = \"…\"");
     if (h_.set.empty()) fail(1, "location.set", "is missing", "say where the cause can sit: [location] set = \"nodes\"");
     if (h_.actions.empty()) fail(1, "action", "is missing", "say what the cause does: [[action]] kind = \"…\"");
@@ -53,10 +45,23 @@ class Reader {
   [[noreturn]] void fail(long line, const std::string& key, const std::string& problem, const std::string& mend) const {
     throw InputError({file_.string(), line, key}, problem, mend);
   }
-  [[noreturn]] void unknown(const io::TomlEntry& entry, const std::vector<std::string>& known) const {
-    const std::string nearest = nearest_name(entry.key, known);
-    fail(entry.line, "", "unknown key '" + entry.key + "'",
-         nearest.empty() ? fmt::format("known keys are {}", fmt::join(known, ", ")) : "did you mean '" + nearest + "'?");
+  /// The keys that a table may have, each with what is done with its entry.
+  using Keys = std::vector<std::pair<std::string, std::function<void(const io::TomlEntry&)>>>;
+  void take(const Table& entries, const Keys& keys) const {
+    for (const io::TomlEntry& entry : entries) {
+      if (const auto key = std::ranges::find(keys, entry.key, &Keys::value_type::first); key != keys.end()) {
+        key->second(entry);
+        continue;
+      }
+      const std::vector<std::string> known = each_of(keys, &Keys::value_type::first);
+      const std::string nearest = nearest_name(entry.key, known);
+      fail(entry.line, "", "unknown key '" + entry.key + "'",
+           nearest.empty() ? fmt::format("known keys are {}", fmt::join(known, ", ")) : "did you mean '" + nearest + "'?");
+    }
+  }
+  /// Puts the text of an entry into a member.
+  std::function<void(const io::TomlEntry&)> text_into(std::string& member) const {
+    return [this, &member](const io::TomlEntry& entry) { member = text(entry); };
   }
   const Table& table(const io::TomlEntry& entry) const {
     const auto* found = entry.value.as<Table>();
@@ -113,61 +118,39 @@ class Reader {
   }
 
   void hypothesis(const Table& entries) {
-    for (const auto& e : entries) {
-      if (e.key == "id")
-        h_.id = text(e);
-      else if (e.key == "title")
-        h_.title = text(e);
-      else if (e.key == "side") {
-        const std::string side = text(e);
-        if (side != "model" && side != "measurement")
-          fail(e.line, "side", fmt::format("is '{}', expected model or measurement", side), "");
-        h_.measurement = side == "measurement";
-      } else if (e.key == "prior_weight")
-        h_.prior_weight = positive(e);
-      else
-        unknown(e, {"id", "title", "side", "prior_weight"});
-    }
+    const auto side = [&](const io::TomlEntry& e) {
+      const std::string word = text(e);
+      if (word != "model" && word != "measurement")
+        fail(e.line, "side", fmt::format("is '{}', expected model or measurement", word), "");
+      h_.measurement = word == "measurement";
+    };
+    take(entries,
+         {{"id", text_into(h_.id)}, {"title", text_into(h_.title)}, {"side", side}, {"prior_weight", [&](const auto& e) {
+                                                                                       h_.prior_weight = positive(e);
+                                                                                     }}});
   }
   void location(const Table& entries) {
-    for (const auto& e : entries) {
-      if (e.key == "set") {
-        h_.set = text(e);
-        const auto& known = location_sets();
-        if (!contains(known, h_.set))
-          fail(e.line, "location.set", fmt::format("'{}' is no set of locations{}", h_.set, did_you_mean(h_.set, known)),
-               fmt::format("use one of {}", fmt::join(known, ", ")));
-      } else if (e.key == "filter")
-        h_.filter = text(e);
-      else
-        unknown(e, {"set", "filter"});
-    }
+    const auto set = [&](const auto& e) {
+      h_.set = known_name(text(e), e.line, "location.set", "is no set of locations", location_sets());
+    };
+    take(entries, {{"set", set}, {"filter", text_into(h_.filter)}});
   }
   void parameter(const Table& entries) {
     UnknownSpec u;
-    bool low = false, high = false;
-    for (const auto& e : entries) {
-      if (e.key == "name")
-        u.name = text(e);
-      else if (e.key == "unit")
-        u.unit = text(e);
-      else if (e.key == "low") {
-        u.low = expression(e);
-        low = true;
-      } else if (e.key == "high") {
-        u.high = expression(e);
-        high = true;
-      } else if (e.key == "scale")
-        u.log = is_log(e);
-      else if (e.key == "start") {
-        const auto* list = e.value.as<io::TomlValue::Array>();
-        if (list == nullptr || list->empty())
-          fail(e.line, "start", "is no list of values", "give values between low and high, or leave start out");
-        for (const auto& value : *list) u.start.push_back(expression(value, e.line, "start"));
-      } else
-        unknown(e, {"name", "unit", "low", "high", "scale", "start"});
-    }
-    if (u.name.empty() || !low || !high)
+    const auto start = [&](const io::TomlEntry& e) {
+      const auto* list = e.value.as<io::TomlValue::Array>();
+      if (list == nullptr || list->empty())
+        fail(e.line, "start", "is no list of values", "give values between low and high, or leave start out");
+      for (const auto& value : *list) u.start.push_back(expression(value, e.line, "start"));
+    };
+    take(entries, {{"name", text_into(u.name)},
+                   {"unit", text_into(u.unit)},
+                   {"low", [&](const auto& e) { u.low = expression(e); }},
+                   {"high", [&](const auto& e) { u.high = expression(e); }},
+                   {"scale", [&](const auto& e) { u.log = is_log(e); }},
+                   {"start", start}});
+    const auto has = [&](const char* key) { return std::ranges::find(entries, key, &io::TomlEntry::key) != entries.end(); };
+    if (u.name.empty() || !has("low") || !has("high"))
       fail(entries.empty() ? 0 : entries.front().line, "parameter", "lacks name, low or high", "");
     check_bounds(u);
     h_.unknowns.push_back(u);
@@ -251,13 +234,17 @@ class Reader {
       if (!value.name.starts_with('$')) check_name(value, "action." + name);
     }
   }
-  /// One of the keys of a condition. @param key  of the catalogue that names it
-  std::string condition_key(const std::string& name, long line, const std::string& key) const {
-    const auto& known = condition_keys();
+  /// The name. @throws InputError  if it is none of those that are known
+  std::string known_name(const std::string& name, long line, const std::string& key, const char* problem,
+                         const std::vector<std::string>& known) const {
     if (!contains(known, name))
-      fail(line, key, fmt::format("'{}' is no key of a condition{}", name, did_you_mean(name, known)),
+      fail(line, key, fmt::format("'{}' {}{}", name, problem, did_you_mean(name, known)),
            fmt::format("use one of {}", fmt::join(known, ", ")));
     return name;
+  }
+  /// One of the keys of a condition. @param key  of the catalogue that names it
+  std::string condition_key(const std::string& name, long line, const std::string& key) const {
+    return known_name(name, line, key, "is no key of a condition", condition_keys());
   }
   std::string demand(const io::TomlEntry& entry) const {
     const auto& known = condition_demands();
@@ -277,35 +264,26 @@ class Reader {
     return static_cast<int>(*whole);
   }
   void needs(const Table& entries) {
-    for (const auto& e : entries) {
-      if (e.key == "conditions")
-        for (const auto& c : table(e)) h_.needs.conditions[condition_key(c.key, c.line, "needs.conditions")] = demand(c);
-      else if (e.key == "distinct")
-        for (const auto& c : table(e)) h_.needs.distinct[condition_key(c.key, c.line, "needs.distinct")] = count(c);
-      else if (e.key == "rows") {
-        const auto* list = e.value.as<io::TomlValue::Array>();
-        if (list == nullptr) fail(e.line, "rows", "is no list", "");
-        for (const auto& value : *list) {
-          const auto& known = row_type_names();
-          const std::string type = value.as<std::string>() ? *value.as<std::string>() : "";
-          if (!contains(known, type))
-            fail(e.line, "needs.rows", fmt::format("'{}' is no type of row{}", type, did_you_mean(type, known)), "");
-          h_.needs.rows.push_back(type);
-        }
-      } else
-        unknown(e, {"conditions", "distinct", "rows"});
-    }
+    const auto conditions = [&](const auto& e) {
+      for (const auto& c : table(e)) h_.needs.conditions[condition_key(c.key, c.line, "needs.conditions")] = demand(c);
+    };
+    const auto distinct = [&](const auto& e) {
+      for (const auto& c : table(e)) h_.needs.distinct[condition_key(c.key, c.line, "needs.distinct")] = count(c);
+    };
+    const auto rows = [&](const io::TomlEntry& e) {
+      const auto* list = e.value.as<io::TomlValue::Array>();
+      if (list == nullptr) fail(e.line, "rows", "is no list", "");
+      for (const auto& value : *list) {
+        const auto& known = row_type_names();
+        const std::string type = value.as<std::string>() ? *value.as<std::string>() : "";
+        if (!contains(known, type))
+          fail(e.line, "needs.rows", fmt::format("'{}' is no type of row{}", type, did_you_mean(type, known)), "");
+        h_.needs.rows.push_back(type);
+      }
+    };
+    take(entries, {{"conditions", conditions}, {"distinct", distinct}, {"rows", rows}});
   }
-  void report(const Table& entries) {
-    for (const auto& e : entries) {
-      if (e.key == "sentence")
-        h_.sentence = text(e);
-      else if (e.key == "remedy")
-        h_.remedy = text(e);
-      else
-        unknown(e, {"sentence", "remedy"});
-    }
-  }
+  void report(const Table& entries) { take(entries, {{"sentence", text_into(h_.sentence)}, {"remedy", text_into(h_.remedy)}}); }
 
   std::filesystem::path file_;
   Hypothesis h_;

@@ -1,6 +1,5 @@
 #include "diagnosis/prediction/predictor.hpp"
 
-#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <limits>

@@ -14,6 +14,22 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 constexpr double kUnknown = -1e300;  ///< in the key of a state: unknown value of the condition
 
+/// Modes of a state in the coordinates of another one with the same own degrees of freedom; empty if it lacks one of the
+/// columns.
+StateModes in_coordinates_of(const SolvedState& state, const SolvedState& near) {
+  const auto shared = static_cast<Index>(near.columns.size()), own = near.modes.shapes.rows() - shared;
+  StateModes out;
+  out.shapes = Eigen::MatrixXcd::Zero(state.state.stiffness.rows(), near.modes.s.size());
+  for (Index k = 0; k < shared; ++k) {
+    const auto at = std::ranges::find(state.columns, near.columns[static_cast<std::size_t>(k)]);
+    if (at == state.columns.end()) return {};
+    out.shapes.row(at - state.columns.begin()) = near.modes.shapes.row(k);
+  }
+  out.shapes.bottomRows(own) = near.modes.shapes.bottomRows(own);
+  out.s = near.modes.s;
+  return out;
+}
+
 }  // namespace
 
 /// Causes and circumstances that act in a condition. Conditions with equal ones share one solution.
@@ -81,30 +97,8 @@ void Predictor::build(SolvedState& entry, const Condition& condition, const std:
   const std::vector<Index> kept =
       independent_coordinates(entry.state.stiffness.topLeftCorner(n, n), entry.state.mass.topLeftCorner(n, n), common);
   if (std::ssize(kept) == n) return;
-  std::vector<int> fewer;
-  for (const Index k : kept) fewer.push_back(columns[static_cast<std::size_t>(k)]);
-  build_in(std::move(fewer));
+  build_in(each_of(kept, [&](Index k) { return columns[static_cast<std::size_t>(k)]; }));
 }
-
-namespace {
-
-/// Modes of a state in the coordinates of another one with the same own degrees of freedom; empty if it lacks one of the
-/// columns.
-StateModes in_coordinates_of(const SolvedState& state, const SolvedState& near) {
-  const auto shared = static_cast<Index>(near.columns.size()), own = near.modes.shapes.rows() - shared;
-  StateModes out;
-  out.shapes = Eigen::MatrixXcd::Zero(state.state.stiffness.rows(), near.modes.s.size());
-  for (Index k = 0; k < shared; ++k) {
-    const auto at = std::ranges::find(state.columns, near.columns[static_cast<std::size_t>(k)]);
-    if (at == state.columns.end()) return {};
-    out.shapes.row(at - state.columns.begin()) = near.modes.shapes.row(k);
-  }
-  out.shapes.bottomRows(own) = near.modes.shapes.bottomRows(own);
-  out.s = near.modes.s;
-  return out;
-}
-
-}  // namespace
 
 SolvedState& Predictor::solved(int c) {
   if (const auto known = of_condition_.find(c); known != of_condition_.end()) return *known->second;

@@ -73,9 +73,7 @@ ElementPlaces::ElementPlaces(const Structure& structure)
 }
 
 std::vector<Eigen::Vector3d> ElementPlaces::node_positions() const {
-  std::vector<Eigen::Vector3d> positions;
-  for (const int node : nodes_) positions.push_back(model_.nodes[static_cast<std::size_t>(node)].x_m);
-  return positions;
+  return each_of(nodes_, [&](int node) { return model_.nodes[static_cast<std::size_t>(node)].x_m; });
 }
 
 std::vector<int> ElementPlaces::measured_nodes() const {
@@ -115,9 +113,7 @@ void ElementPlaces::add_zones(const std::vector<int>& centres, Places& places, s
     const std::size_t centre = key.first;
     const std::size_t middle = *std::min_element(members.begin(), members.end(),
                                                  [&](std::size_t i, std::size_t j) { return off(centre, i) < off(centre, j); });
-    std::vector<int> elements;
-    for (const std::size_t i : members) elements.push_back(candidates_[i]);
-    Place zone = part(elements);
+    Place zone = part(each_of(members, [&](std::size_t i) { return candidates_[i]; }));
     if (off(centre, middle) <= least[centre]) zone.x_m = points[centre];
     zone.id = "element:" + std::to_string(model_.elements[static_cast<std::size_t>(candidates_[middle])].id);
     places.sets["elements"].push_back(std::move(zone));
@@ -155,15 +151,13 @@ void ElementPlaces::add_stays(Places& places) const {
     Sum stiffness{expansion_.rows(), {}}, mass{expansion_.rows(), {}};
     stiffness.add(stay_stiffness(e, pull));
     mass.add(fe::element_mass(model_, element));
-    Place place{"stay:" + (element.name.empty() ? std::to_string(element.id) : element.name),
-                0.5 * (ends[0] + ends[1]),
-                free(stiffness),
-                free(mass),
-                {},
-                {},
-                {static_cast<int>(e)},
-                laws_.stiffness({static_cast<int>(e)}),
-                laws_.mass({static_cast<int>(e)})};
+    Place place{.id = "stay:" + (element.name.empty() ? std::to_string(element.id) : element.name),
+                .x_m = 0.5 * (ends[0] + ends[1]),
+                .stiffness = free(stiffness),
+                .mass = free(mass),
+                .elements = {static_cast<int>(e)},
+                .stiffness_law = laws_.stiffness({static_cast<int>(e)}),
+                .mass_law = laws_.mass({static_cast<int>(e)})};
     // The own mode of a cable moves its anchorages across the chord. Directions: the two transverse ones of the lower end.
     const int low = ends[0].z() <= ends[1].z() ? element.nodes[0] : element.nodes[1];
     const Eigen::Vector3d along = (ends[1] - ends[0]).normalized();
@@ -175,9 +169,7 @@ void ElementPlaces::add_stays(Places& places) const {
       entries.emplace_back(6 * low + d, 0, up[d]);
       entries.emplace_back(6 * low + d, 1, side[d]);
     }
-    Eigen::SparseMatrix<double> directions(expansion_.rows(), 2);
-    directions.setFromTriplets(entries.begin(), entries.end());
-    place.directions = Eigen::SparseMatrix<double>(expansion_.transpose() * directions);
+    place.directions = free_directions(entries, 2);
     place.attributes["cable_mass"] = density * area * length;
     place.attributes["length"] = length;
     place.attributes["pull"] = pull;
@@ -196,15 +188,8 @@ Place ElementPlaces::damper_place(const fe::Spring& damper) const {
   std::vector<Eigen::Triplet<double>> entries;
   for (std::size_t i = 0; i < k.dofs.size(); ++i)
     entries.emplace_back(k.dofs[i], 0, k.matrix(static_cast<Index>(i), largest) / std::sqrt(k.matrix(largest, largest)));
-  Eigen::SparseMatrix<double> direction(expansion_.rows(), 1);
-  direction.setFromTriplets(entries.begin(), entries.end());
-  Place place{"damper:" + damper.name,
-              model_.nodes[static_cast<std::size_t>(damper.node)].x_m,
-              {},
-              {},
-              Eigen::SparseMatrix<double>(expansion_.transpose() * direction),
-              {},
-              {}};
+  Place place{"damper:" + damper.name, model_.nodes[static_cast<std::size_t>(damper.node)].x_m};
+  place.directions = free_directions(entries, 1);
   place.attributes["damping"] = damper.damping;
   place.attributes["stiffness"] = damper.stiffness;
   place.attributes["series"] = damper.series ? 1.0 : 0.0;
@@ -227,7 +212,7 @@ void ElementPlaces::add_dampers(Places& places) const {
     places.sets["dampers"].push_back(std::move(place));
   }
   for (std::size_t type = 0; type < types.size(); ++type) {  // "dampers:C1,C2": all dampers of one make
-    Place all{"dampers:", Eigen::Vector3d::Zero(), {}, {}, {}, {}, {}};
+    Place all{"dampers:", Eigen::Vector3d::Zero()};
     double members = 0.0;
     for (const Place& damper : places.sets["dampers"]) {
       const auto at = damper.attributes.find("type");
@@ -286,7 +271,7 @@ void ElementPlaces::add_supports(Places& places) const {
     for (const bool rotation : {false, true}) {
       const Sum& sum = support.stiffness[rotation ? 1 : 0];
       if (sum.entries.empty()) continue;
-      Place place{"support:" + support.name, support.x_m, free(sum), {}, {}, {}, {}};
+      Place place{"support:" + support.name, support.x_m, free(sum)};
       place.stiffness_law.ratio = support.ratio;
       // The factor on a spring that replaces a rigid support must fall by orders before anything moves. A bearing may be softer
       // or stiffer.
@@ -304,7 +289,7 @@ void ElementPlaces::add_supports(Places& places) const {
 void ElementPlaces::add_moves(const std::vector<DamperMove>& moves, Places& places) const {
   const auto nodes = each_of(model_.nodes, &fe::Node::x_m);
   for (const DamperMove& move : moves) {
-    Place place{"dampers:", Eigen::Vector3d::Zero(), {}, {}, {}, {}, {}};
+    Place place{"dampers:", Eigen::Vector3d::Zero()};
     std::vector<Eigen::Triplet<double>> entries;
     for (std::size_t i = 0; i < move.dampers.size(); ++i) {
       const auto spring = std::ranges::find_if(model_.springs, [&](const fe::Spring& s) { return s.name == move.dampers[i]; });
@@ -317,9 +302,7 @@ void ElementPlaces::add_moves(const std::vector<DamperMove>& moves, Places& plac
       place.attributes["node_" + std::to_string(i)] = node;
     }
     place.id += "@" + move.name;
-    Eigen::SparseMatrix<double> directions(expansion_.rows(), static_cast<Index>(move.dampers.size()));
-    directions.setFromTriplets(entries.begin(), entries.end());
-    place.directions = Eigen::SparseMatrix<double>(expansion_.transpose() * directions);
+    place.directions = free_directions(entries, std::ssize(move.dampers));
     places.sets["damper_moves"].push_back(std::move(place));
   }
 }
@@ -329,16 +312,9 @@ void ElementPlaces::add_nodes(const std::vector<int>& chosen, Places& places) co
     const int node = nodes_[static_cast<std::size_t>(c)];
     std::vector<Eigen::Triplet<double>> entries;
     for (int d = 0; d < 3; ++d) entries.emplace_back(6 * node + d, d, 1.0);
-    Eigen::SparseMatrix<double> directions(expansion_.rows(), 3);
-    directions.setFromTriplets(entries.begin(), entries.end());
     const fe::Node& at = model_.nodes[static_cast<std::size_t>(node)];
-    Place place{"node:" + std::to_string(at.id),
-                at.x_m,
-                {},
-                {},
-                Eigen::SparseMatrix<double>(expansion_.transpose() * directions),
-                {},
-                {}};
+    Place place{"node:" + std::to_string(at.id), at.x_m};
+    place.directions = free_directions(entries, 3);
     const bool supported = std::ranges::any_of(model_.springs, [&](const fe::Spring& spring) {
       return spring.node == node && spring.node2 < 0 && !spring.rotation && !spring.is_damper() &&
              std::abs(spring.direction.normalized().z()) > kMostlyVertical && fe::carries_stiffness(spring);

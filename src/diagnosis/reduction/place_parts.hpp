@@ -46,6 +46,13 @@ class ElementPlaces {
   struct Group;
   [[nodiscard]] std::vector<std::pair<std::string, Group>> groups() const;  ///< in the order of the model
   [[nodiscard]] Symmetric free(const Sum& sum) const { return sum.free(expansion_); }
+  /// Unit forces over the free degrees of freedom, of their parts at the nodes. @param count  number of directions
+  [[nodiscard]] Eigen::SparseMatrix<double> free_directions(const std::vector<Eigen::Triplet<double>>& entries,
+                                                            Eigen::Index count) const {
+    Eigen::SparseMatrix<double> directions(expansion_.rows(), count);
+    directions.setFromTriplets(entries.begin(), entries.end());
+    return expansion_.transpose() * directions;
+  }
   [[nodiscard]] fe::ElementMatrix stay_stiffness(std::size_t element, double pull) const;
   [[nodiscard]] double pull_of(std::size_t element) const;
   [[nodiscard]] Place damper_place(const fe::Spring& damper) const;

@@ -99,7 +99,7 @@ std::vector<Place> group_places(const Structure& structure) {
   const fe::ParametricSystem& system = *structure.system;
   for (std::size_t p = 0; p < system.parameters.size(); ++p) {
     const double value = structure.theta[static_cast<Index>(p)];
-    Place place{"group:" + system.parameters[p].name, kNowhere, {}, {}, {}, {}, {}};
+    Place place{"group:" + system.parameters[p].name, kNowhere};
     const double scale = value != 0.0 ? value : 1.0;  // a correction term that starts at zero counts in its own unit
     const fe::Parameter& parameter = system.parameters[p];
     if (value != 0.0) place.attributes["parameter"] = static_cast<double>(p);
@@ -147,7 +147,7 @@ std::vector<Place> matrix_nodes(const Structure& structure, const PlaceOptions& 
   for (const std::string& name : chosen) {
     const auto& dofs = rows.at(name);
     if (dofs.empty()) continue;
-    Place place{"node:" + name, where.at(name), {}, {}, {}, {}, {}};
+    Place place{"node:" + name, where.at(name)};
     Triplets entries;
     for (std::size_t k = 0; k < dofs.size(); ++k) entries.emplace_back(dofs[k], static_cast<int>(k), 1.0);
     place.directions.resize(system.size(), static_cast<Index>(dofs.size()));
@@ -187,7 +187,7 @@ int nearest(const std::vector<Eigen::Vector3d>& centres, const Eigen::Vector3d& 
 Places find_places(const Structure& structure, const PlaceOptions& options) {
   Places places;
   places.sets["groups"] = group_places(structure);
-  Place global{"global", kNowhere, {}, {}, {}, {}, {}};
+  Place global{"global", kNowhere};
   const Eigen::VectorXd& theta = structure.theta;
   const Eigen::VectorXd diagonal = structure.system->mass(theta).diagonal();
   std::array<double, 6> by_direction{};
@@ -217,7 +217,7 @@ Places find_places(const Structure& structure, const PlaceOptions& options) {
                                                       : nearest_of(elements.node_positions(), options.node_positions),
                        places);
     elements.fill_global(global);
-    Place stays{"global", kNowhere, {}, {}, {}, {}, {}};
+    Place stays{"global", kNowhere};
     for (const Place& stay : places.sets["stays"])
       stays.stiffness =
           stays.stiffness.size() == 0 ? stay.stiffness : Symmetric(stays.stiffness.whole() + stay.stiffness.whole());

@@ -1,7 +1,5 @@
 #include "diagnosis/reduction/reduced_matrix.hpp"
 
-#include <utility>
-
 #include "core/error.hpp"
 #include "linalg/dense.hpp"
 #include "linalg/sparse.hpp"

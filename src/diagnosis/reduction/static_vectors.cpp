@@ -3,14 +3,12 @@
 #include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
-#include <functional>
 #include <numbers>
 #include <span>
 #include <utility>
 
 #include "core/error.hpp"
 #include "core/parallel.hpp"
-#include "dynamics/eigenmodes.hpp"
 #include "linalg/dense.hpp"
 #include "linalg/sparse.hpp"
 

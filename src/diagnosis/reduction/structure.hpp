@@ -46,12 +46,13 @@ struct Structure {
 
 /// A candidate location of a cause, with its matrices and directions over the free dofs.
 struct Place {
-  std::string id;                            ///< "element:17", "node:4", "stay:NE5", "damper:C1", "group:E_s" …
-  Eigen::Vector3d x_m;                       ///< NaN where unknown
-  CompactMatrix stiffness, mass;             ///< matrices that a factor scales; size 0 for none
-  Eigen::SparseMatrix<double> directions;    ///< (n × k) unit forces: x y z of a node, a damper's line; size 0 where none
-  std::map<std::string, double> attributes;  ///< numbers for a catalogue's expressions: "damping", "stiffness", "k_drive" …
-  std::vector<int> elements;                 ///< positions of the elements that belong to it
+  std::string id;                               ///< "element:17", "node:4", "stay:NE5", "damper:C1", "group:E_s" …
+  Eigen::Vector3d x_m;                          ///< NaN where unknown
+  CompactMatrix stiffness = {}, mass = {};      ///< matrices that a factor scales; size 0 for none
+  Eigen::SparseMatrix<double> directions = {};  ///< (n × k) unit forces: x y z of a node, a damper's line; size 0 where none
+  std::map<std::string, double> attributes =
+      {};                          ///< numbers for a catalogue's expressions: "damping", "stiffness", "k_drive" …
+  std::vector<int> elements = {};  ///< positions of the elements that belong to it
   ParameterLaw<CompactMatrix> stiffness_law = {}, mass_law = {};  ///< dependence of its matrices on the parameters
 };
 

@@ -96,7 +96,7 @@ void ElementPlaces::add_support_moves(Places& places) const {
     const std::vector<std::pair<int, double>> line = line_through(model_, beams, node);
     constexpr std::size_t kFewest = 4;  // nodes that a support can move between
     if (line.size() < kFewest) continue;
-    Place place{support.id, support.x_m, support.stiffness, {}, {}, {}, {}, support.stiffness_law};
+    Place place{.id = support.id, .x_m = support.x_m, .stiffness = support.stiffness, .stiffness_law = support.stiffness_law};
     std::vector<Eigen::Triplet<double>> entries;
     const auto per_node = static_cast<Index>(springs.size());
     const Vector3d x = model_.nodes[static_cast<std::size_t>(node)].x_m;
@@ -122,9 +122,7 @@ void ElementPlaces::add_support_moves(Places& places) const {
     for (int s = 0; s < kStarts; ++s)
       set("x_start_" + std::to_string(s),
           place.attributes["x_low"] + (s + 0.5) / kStarts * (place.attributes["x_high"] - place.attributes["x_low"]));
-    Eigen::SparseMatrix<double> directions(expansion_.rows(), static_cast<Index>(line.size()) * per_node);
-    directions.setFromTriplets(entries.begin(), entries.end());
-    place.directions = Eigen::SparseMatrix<double>(expansion_.transpose() * directions);
+    place.directions = free_directions(entries, std::ssize(line) * per_node);
     places.sets["support_moves"].push_back(std::move(place));
   }
 }
