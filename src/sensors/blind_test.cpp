@@ -7,7 +7,6 @@
 #include "core/error.hpp"
 #include "core/parallel.hpp"
 #include "core/random.hpp"
-#include "identification/clustering.hpp"
 #include "identification/ssi_cov.hpp"
 #include "signal/condition.hpp"
 #include "signal/correlation.hpp"

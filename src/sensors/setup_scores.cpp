@@ -5,7 +5,6 @@
 #include <limits>
 #include <map>
 #include <set>
-#include <string>
 
 #include "core/error.hpp"
 #include "core/lists.hpp"
@@ -164,30 +163,6 @@ bool exchange_one(const MatrixXd& phi, const Worth& worth, Layout& layout) {
   return true;
 }
 
-}  // namespace
-
-void refuse_unknown_blind_setups(const LayoutSettings& config, const std::vector<LayoutChannel>& setups) {
-  std::vector<std::string> known = sensors::setup_names(setups);
-  for (long i = 0; i < std::min(config.free_setups, config.draws); ++i) known.push_back(free_name(i));
-  known.insert(known.end(), kSearches.begin(), kSearches.end());
-  for (const std::string& name : config.blind_setups) {
-    if (!contains(known, name))
-      throw InputError({"", 0, "blind.setups"}, "'" + name + "' is no setup" + did_you_mean(name, known),
-                       "name setups of the layout, DC1 … or a search");
-  }
-}
-
-std::vector<LayoutChannel> candidate_channels(const std::vector<LayoutPoint>& points) {
-  std::vector<LayoutChannel> candidates;
-  for (const LayoutPoint& point : points) {
-    candidates.push_back(sensors::channel_at(point, "vertical", point.name + "z"));
-    candidates.push_back(sensors::channel_at(point, "radial", point.name + "r"));
-  }
-  return candidates;
-}
-
-namespace {
-
 double score_of(const MatrixXd& phi, const std::vector<Index>& rows) { return sensors::decoupling_score(rows_of(phi, rows)); }
 
 /// Appends those of the file, each among candidates of its family.
@@ -252,6 +227,26 @@ void append_searched(const LayoutSettings& config, const std::vector<LayoutChann
 }
 
 }  // namespace
+
+void refuse_unknown_blind_setups(const LayoutSettings& config, const std::vector<LayoutChannel>& setups) {
+  std::vector<std::string> known = sensors::setup_names(setups);
+  for (long i = 0; i < std::min(config.free_setups, config.draws); ++i) known.push_back(free_name(i));
+  known.insert(known.end(), kSearches.begin(), kSearches.end());
+  for (const std::string& name : config.blind_setups) {
+    if (!contains(known, name))
+      throw InputError({"", 0, "blind.setups"}, "'" + name + "' is no setup" + did_you_mean(name, known),
+                       "name setups of the layout, DC1 … or a search");
+  }
+}
+
+std::vector<LayoutChannel> candidate_channels(const std::vector<LayoutPoint>& points) {
+  std::vector<LayoutChannel> candidates;
+  for (const LayoutPoint& point : points) {
+    candidates.push_back(sensors::channel_at(point, "vertical", point.name + "z"));
+    candidates.push_back(sensors::channel_at(point, "radial", point.name + "r"));
+  }
+  return candidates;
+}
 
 std::vector<ScoredSetup> score_setups(const LayoutSettings& config, const std::vector<LayoutPoint>& points,
                                       const std::vector<LayoutChannel>& candidates, const std::vector<LayoutChannel>& setups,

@@ -191,8 +191,7 @@ std::string listed(const diagnosis::Effect& effect, bool several_states, bool in
   return text;
 }
 
-/// residuals.csv: `type,mode,channel,condition,held_out,value,std,before,after,residual_before,residual_after,beyond_before,
-/// beyond_after`: predictions in the row's own unit; residuals over the standard deviation of identification; beyond: 1 where
+/// residuals.csv: predictions in the row's own unit; residuals over the standard deviation of identification; beyond: 1 where
 /// it lies outside the limit that all rows together keep with 99 % (Sidak). Cells of a side are empty in rows of a mode that
 /// has no counterpart in its model: nothing is predicted there.
 void write_residuals(const Inference& inference, const Diagnosis& result, const std::filesystem::path& file) {

@@ -49,6 +49,14 @@ std::vector<records::Correction> asked_corrections(runner::StepContext& context)
   return corrections;
 }
 
+/// Warns that rows of load tests are not used by comparison and updating.
+void warn_of_load_tests(const std::filesystem::path& folder, runner::StepContext& context) {
+  const auto table = io::CsvTable::read(folder / "rows.csv", {"type"}, {}, true);
+  int count = 0;
+  for (std::size_t row = 0; row < table.rows(); ++row) count += table.text(row, "type").starts_with("static_") ? 1 : 0;
+  if (count > 0) context.warn(fmt::format("{} rows of load tests are not used here: s9_diagnosis compares them", count));
+}
+
 }  // namespace
 
 records::MeasuredChoice asked_choice(runner::StepContext& context, const std::string& condition) {
@@ -87,18 +95,6 @@ matching::Measured read_measured_modes(const std::filesystem::path& folder, cons
   correct(choice.corrections, measured.modes, (folder / "shapes.csv").string());
   return measured;
 }
-
-namespace {
-
-/// Warns that rows of load tests are not used by comparison and updating.
-void warn_of_load_tests(const std::filesystem::path& folder, runner::StepContext& context) {
-  const auto table = io::CsvTable::read(folder / "rows.csv", {"type"}, {}, true);
-  int count = 0;
-  for (std::size_t row = 0; row < table.rows(); ++row) count += table.text(row, "type").starts_with("static_") ? 1 : 0;
-  if (count > 0) context.warn(fmt::format("{} rows of load tests are not used here: s9_diagnosis compares them", count));
-}
-
-}  // namespace
 
 std::optional<matching::Measured> find_measured(runner::StepContext& context, const std::string& condition) {
   if (context.modes) {

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <string>
-#include <vector>
 
 #include "io/config.hpp"
 #include "matching/pairing_account.hpp"

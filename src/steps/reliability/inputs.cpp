@@ -78,48 +78,6 @@ void add_tables(ReliabilityConfig& config, io::FieldTable& t) {
           "table: width in degrees of the sectors about step 7's direction and its opposite; winds outside them count as calm");
 }
 
-}  // namespace
-
-io::FieldTable ReliabilityConfig::fields() {
-  const io::Range variation = {0.0, 2.0};
-  io::FieldTable t;
-  t.numbers("speeds", speed_m_s, "m/s", {0.0, io::highest_wind_m_s, true}, "mean wind speeds of the fragility curves")
-      .texts("models", models, "models whose critical speeds are computed; empty: all of step 7")
-      .text("response_model", response_model, "model for the response to turbulence")
-      .number("duration", duration_s, "s", {0.0, io::longest_record_s, true},
-              "reference time of the probability that a limit is exceeded")
-      .integer("samples", samples, {100.0, 1000000.0}, "samples of the random inputs, for the spread of the probabilities")
-      .integer("form_iterations", form_iterations, {1.0, 1e5}, "most iterations of FORM in one search for the design point")
-      .integer("subset_levels", subset_levels, {1.0, 100.0},
-               "largest number of levels of subset simulation; each reaches probabilities ten times smaller")
-      .number("damping_variation", damping_variation, "", variation,
-              "coefficient of variation of the structural damping (lognormal about step 7's value); assumed")
-      .number("level_variation", level_variation, "", variation,
-              "coefficient of variation of the aerodynamic set's level (lognormal about 1); assumed")
-      .number("damper_variation", damper_variation, "", variation,
-              "coefficient of variation of the dampers' constants (lognormal about 1); paper, Table 1: 5 %")
-      .number("turbulence_variation", turbulence_variation, "", variation,
-              "coefficient of variation of the turbulence intensity (lognormal about 1); assumed")
-      .tables("random", rows_of(random, add_random),
-              "a random input of your own; it replaces the input of the same name, or adds a parameter of the model", "name")
-      .number("corrosion_variation", corrosion_variation, "", variation,
-              "coefficient of variation of the rate of corrosion (lognormal about 1); assumed")
-      .number("held_stiffness", held_stiffness_N_m, "N/m", {0.0, 1e12, true},
-              "stiffness of the mounts of a held damper without a spring in series; assumed")
-      .number("damper_stroke", damper_stroke_m, "m", {0.0, 10.0},
-              "largest stroke of a damper in either direction; 0: stroke is not checked")
-      .choice("stay_class", stay_class, {"bar", "coil_rope", "spiral_strand", "parallel"},
-              "fatigue category of the stays, EN 1993-1-11:2006, table 9.1: bars 105 MPa, locked coil ropes and spiral strands "
-              "150 MPa, parallel wires and strands 160 MPa");
-  t.text("condition", condition,
-         "condition of the measured features, whose standard deviations give the detectability by monitoring; empty: the only "
-         "condition");
-  add_tables(*this, t);
-  return t;
-}
-
-namespace {
-
 const std::string kParameter = "parameter:";
 
 /// Step 6's laws of the parameters, and their correlations.
@@ -335,6 +293,44 @@ std::vector<MonitoredName> read_monitored(runner::StepContext& context, const st
 }
 
 }  // namespace
+
+io::FieldTable ReliabilityConfig::fields() {
+  const io::Range variation = {0.0, 2.0};
+  io::FieldTable t;
+  t.numbers("speeds", speed_m_s, "m/s", {0.0, io::highest_wind_m_s, true}, "mean wind speeds of the fragility curves")
+      .texts("models", models, "models whose critical speeds are computed; empty: all of step 7")
+      .text("response_model", response_model, "model for the response to turbulence")
+      .number("duration", duration_s, "s", {0.0, io::longest_record_s, true},
+              "reference time of the probability that a limit is exceeded")
+      .integer("samples", samples, {100.0, 1000000.0}, "samples of the random inputs, for the spread of the probabilities")
+      .integer("form_iterations", form_iterations, {1.0, 1e5}, "most iterations of FORM in one search for the design point")
+      .integer("subset_levels", subset_levels, {1.0, 100.0},
+               "largest number of levels of subset simulation; each reaches probabilities ten times smaller")
+      .number("damping_variation", damping_variation, "", variation,
+              "coefficient of variation of the structural damping (lognormal about step 7's value); assumed")
+      .number("level_variation", level_variation, "", variation,
+              "coefficient of variation of the aerodynamic set's level (lognormal about 1); assumed")
+      .number("damper_variation", damper_variation, "", variation,
+              "coefficient of variation of the dampers' constants (lognormal about 1); paper, Table 1: 5 %")
+      .number("turbulence_variation", turbulence_variation, "", variation,
+              "coefficient of variation of the turbulence intensity (lognormal about 1); assumed")
+      .tables("random", rows_of(random, add_random),
+              "a random input of your own; it replaces the input of the same name, or adds a parameter of the model", "name")
+      .number("corrosion_variation", corrosion_variation, "", variation,
+              "coefficient of variation of the rate of corrosion (lognormal about 1); assumed")
+      .number("held_stiffness", held_stiffness_N_m, "N/m", {0.0, 1e12, true},
+              "stiffness of the mounts of a held damper without a spring in series; assumed")
+      .number("damper_stroke", damper_stroke_m, "m", {0.0, 10.0},
+              "largest stroke of a damper in either direction; 0: stroke is not checked")
+      .choice("stay_class", stay_class, {"bar", "coil_rope", "spiral_strand", "parallel"},
+              "fatigue category of the stays, EN 1993-1-11:2006, table 9.1: bars 105 MPa, locked coil ropes and spiral strands "
+              "150 MPa, parallel wires and strands 160 MPa");
+  t.text("condition", condition,
+         "condition of the measured features, whose standard deviations give the detectability by monitoring; empty: the only "
+         "condition");
+  add_tables(*this, t);
+  return t;
+}
 
 ReliabilityInputs read_reliability_inputs(const ReliabilityConfig& config, runner::StepContext& context) {
   if (context.study.empty())

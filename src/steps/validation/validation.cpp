@@ -44,13 +44,11 @@ using Eigen::Index;
 
 constexpr std::size_t kBeforeMeasured = 12;  ///< columns of rms.csv before the measured side
 
-/// rms.csv:
-/// `event,run,model,channel,direction,rms_m_s2,rms_low_m_s2,rms_high_m_s2,seed_deviation_m_s2,peak_m_s2,spectral_rms_m_s2,
-/// spectral_rms_each_frequency_m_s2`: accelerations at the monitoring points, mean over seeds with its interval, standard
-/// deviation of one seed, and the values of the frequency domain, with derivatives frozen as in the time domain and with
-/// derivatives at each frequency; then `measured_rms_m_s2,error_pct, error_low_pct,error_high_pct` of the vertical direction,
-/// Eq. (18), 100 (RMS_num / RMS_exp - 1), empty without a measured side. The bounds are those of the mean over seeds. If the
-/// bridge is unstable in an event and run, all simulated values are empty.
+/// rms.csv: accelerations at the monitoring points, mean over seeds with its interval, standard deviation of one seed, and the
+/// values of the frequency domain, with derivatives frozen as in the time domain and with derivatives at each frequency; then
+/// the measured RMS and its errors in the vertical direction, Eq. (18), 100 (RMS_num / RMS_exp - 1), empty without a measured
+/// side. The bounds are those of the mean over seeds. If the bridge is unstable in an event and run, all simulated values are
+/// empty.
 void write_rms(const std::vector<buffeting::RunResult>& results, const buffeting::BridgeInWind& bridge,
                const buffeting::MeasuredRms& measured, const ValidationConfig& config, const std::filesystem::path& folder) {
   io::CsvWriter csv({"event", "run", "model", "channel", "direction", "rms_m_s2", "rms_low_m_s2", "rms_high_m_s2",
@@ -94,8 +92,8 @@ void write_statements(const std::vector<buffeting::PaperStatement>& statements, 
   csv.save(folder / "statements.csv");
 }
 
-/// comfort.csv: `event,run,direction,deck,station_m,peak_m_s2,peak_low_m_s2,peak_high_m_s2,limit_m_s2,verdict`: the aerodynamic
-/// node with the largest mean peak, against the comfort limits: "within", "exceeded", or "unstable", which has no peak.
+/// The aerodynamic node with the largest mean peak, against the comfort limits: "within", "exceeded", or "unstable", which has
+/// no peak.
 void write_comfort(const std::vector<buffeting::RunResult>& results, const buffeting::BridgeInWind& bridge,
                    const ValidationConfig& config, const std::filesystem::path& folder) {
   io::CsvWriter csv({"event", "run", "direction", "deck", "station_m", "peak_m_s2", "peak_low_m_s2", "peak_high_m_s2",
@@ -127,7 +125,7 @@ void write_comfort(const std::vector<buffeting::RunResult>& results, const buffe
   csv.save(folder / "comfort.csv");
 }
 
-/// wind_check.csv: `event,quantity,target,found,allowed,verdict`; no rows of an event in which all runs are unstable.
+/// No rows of an event in which all runs are unstable.
 void write_wind_check(const std::vector<buffeting::FieldCheck>& checks, const std::filesystem::path& folder) {
   io::CsvWriter csv({"event", "quantity", "target", "found", "allowed", "verdict"});
   for (const buffeting::FieldCheck& check : checks)
@@ -136,8 +134,7 @@ void write_wind_check(const std::vector<buffeting::FieldCheck>& checks, const st
   csv.save(folder / "wind_check.csv");
 }
 
-/// checks.csv: `check,channel,reference_m_s2,found_m_s2,difference_pct,allowed_pct,verdict`, of the first event and run in
-/// which the bridge is stable.
+/// Of the first event and run in which the bridge is stable.
 void write_time_checks(const std::vector<buffeting::TimeCheck>& checks, const std::filesystem::path& folder) {
   io::CsvWriter csv({"check", "channel", "reference_m_s2", "found_m_s2", "difference_pct", "allowed_pct", "verdict"});
   for (const buffeting::TimeCheck& check : checks) {
@@ -148,9 +145,7 @@ void write_time_checks(const std::vector<buffeting::TimeCheck>& checks, const st
   csv.save(folder / "checks.csv");
 }
 
-/// hybrid.csv: the zones of Table 14, `deck,theta_from_deg,theta_to_deg,zone,model,statics,lookup_cos_power,
-/// block_inverse_cos_power,nodes`; the ends are the yaw at the decks' end stays. hybrid_nodes.csv:
-/// `deck,node,station_m,x_m,y_m,yaw_deg, model,static_factor,block_factor` (Fig. 21).
+/// hybrid.csv: the zones of Table 14; the ends are the yaw at the decks' end stays. hybrid_nodes.csv: Fig. 21.
 void write_hybrid(const buffeting::BridgeInWind& bridge, const std::filesystem::path& folder) {
   io::CsvWriter zones({"deck", "theta_from_deg", "theta_to_deg", "zone", "model", "statics", "lookup_cos_power",
                        "block_inverse_cos_power", "nodes"});
