@@ -360,7 +360,7 @@ void find_visible(const ReliabilityInputs& read, const fe::Model& start, const S
 /// Annual hours, probabilities and damage under the user's wind law. A limit counts as exceeded above the last computed speed,
 /// and where the bridge is unstable.
 std::vector<AnnualRow> annual_rows(const reliability::WindLaw& law, const Found& found) {
-  std::map<std::string, std::pair<AnnualRow, reliability::OverSpeed>> curves, bounds;
+  std::map<std::string, std::pair<AnnualRow, reliability::OverSpeed>> curves, bounds, damages;
   const auto add = [](auto& into, const AnnualRow& row, double speed, double value) {
     auto& [kept, curve] =
         into[fmt::format("{}|{}|{}|{:06.1f}|{}", row.quantity, row.of.dampers, row.of.fault, row.of.years, row.place)];
@@ -381,10 +381,8 @@ std::vector<AnnualRow> annual_rows(const reliability::WindLaw& law, const Found&
   for (const FatigueRow& row : found.fatigue) {
     const AnnualRow annual{"fatigue_damage", row.of, row.stay, "per year", 0.0, std::nullopt};
     add(bounds, annual, row.speed_m_s, row.narrow_band_per_hour);
+    add(damages, annual, row.speed_m_s, row.damage_per_hour);
   }
-  std::map<std::string, std::pair<AnnualRow, reliability::OverSpeed>> damages;
-  for (const FatigueRow& row : found.fatigue)
-    add(damages, {"fatigue_damage", row.of, row.stay, "per year", 0.0, std::nullopt}, row.speed_m_s, row.damage_per_hour);
   for (auto& [key, entry] : damages) {
     if (entry.second.value.size() < 2) continue;
     AnnualRow row = entry.first;
