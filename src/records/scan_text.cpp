@@ -224,6 +224,13 @@ std::string form_of(std::string_view line) {
                    "write each block into a file of its own, or side by side as columns");
 }
 
+[[noreturn]] void refuse_stray(const fs::path& file, long number, std::string_view line, const Rows& rows) {
+  throw InputError({file.string(), number, ""},
+                   fmt::format("'{}' is no row of the table: it {}", trimmed(line).substr(0, 60), rows.problem()),
+                   fmt::format("{}, or set skip_stray_lines = true in its [[record]] of campaign.toml to leave out such lines",
+                               rows.is_one_cell() ? "empty the cell, which then is a missing value" : "remove the line"));
+}
+
 /// Refuses a single series that is written along the rows: the header states about as many samples as the rows hold numbers. A
 /// table with time or with a line of names has channels instead.
 void refuse_wrapped_series(const fs::path& file, const TextLayout& layout, Index rows) {
@@ -235,6 +242,19 @@ void refuse_wrapped_series(const fs::path& file, const TextLayout& layout, Index
                    fmt::format("states {} samples, and {} rows of {} numbers follow: one series, written on from row to row",
                                stated, rows, columns),
                    "write one number a line: tr -s ' \\t,' '\\n' on the lines below the header");
+}
+
+/// Notes on rows that were put right or left out, with their number.
+void note_lines(RecordInfo& info, long exchanged, long of_others, long stray, long first_stray) {
+  const auto note = [&](long count, const std::string& one, const std::string& several) {
+    if (count > 0) info.notes.push_back(count == 1 ? one : fmt::format("{} {}", count, several));
+  };
+  note(exchanged, "one time stamp has day and month exchanged, put right by its order",
+       "time stamps have day and month exchanged, put right by their order");
+  note(of_others, "one row has no value of the channels asked for and is left out",
+       "rows have no value of the channels asked for and are left out");
+  note(stray, fmt::format("line {} is no row of the table and is left out", first_stray),
+       fmt::format("lines are no rows of the table and are left out, the first is line {}", first_stray));
 }
 
 }  // namespace
@@ -269,12 +289,7 @@ RecordInfo scan_text(const fs::path& file, const Visitor& visit, const ReadOptio
     if (kind == Rows::Kind::stray) {
       refuse_wrapped_series(file, layout, parts.rows());  // its last row may be shorter
       if (layout.time_column < 0 && header.contains(form_of(line))) refuse_next_block(file, in.number(), line);
-      if (!options.skip_stray_lines)
-        throw InputError(
-            {file.string(), in.number(), ""},
-            fmt::format("'{}' is no row of the table: it {}", trimmed(line).substr(0, 60), rows.problem()),
-            fmt::format("{}, or set skip_stray_lines = true in its [[record]] of campaign.toml to leave out such lines",
-                        rows.is_one_cell() ? "empty the cell, which then is a missing value" : "remove the line"));
+      if (!options.skip_stray_lines) refuse_stray(file, in.number(), line, rows);
       if (++stray == 1) first_stray = in.number();
       continue;
     }
@@ -298,15 +313,7 @@ RecordInfo scan_text(const fs::path& file, const Visitor& visit, const ReadOptio
     take_clock(stamps, layout.stamps || layout.time_parts ? 1.0 : layout.time_unit_s, "time column" + time_name(layout), info);
   if (layout.header_rate_Hz)
     take_stated_rate(*layout.header_rate_Hz, fmt::format("header: '{}'", layout.header_rate_text), info);
-  const auto note = [&](long count, const std::string& one, const std::string& several) {
-    if (count > 0) info.notes.push_back(count == 1 ? one : fmt::format("{} {}", count, several));
-  };
-  note(rows.exchanged(), "one time stamp has day and month exchanged, put right by its order",
-       "time stamps have day and month exchanged, put right by their order");
-  note(of_others, "one row has no value of the channels asked for and is left out",
-       "rows have no value of the channels asked for and are left out");
-  note(stray, fmt::format("line {} is no row of the table and is left out", first_stray),
-       fmt::format("lines are no rows of the table and are left out, the first is line {}", first_stray));
+  note_lines(info, rows.exchanged(), of_others, stray, first_stray);
   return info;
 }
 
