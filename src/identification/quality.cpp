@@ -177,13 +177,19 @@ long fill_gaps(Eigen::MatrixXd& data, const std::vector<std::string>& channels, 
       const long gap = end - t;
       if (gap > longest || t == 0 || end == data.rows()) {
         long most = 0;
-        for (Index k = 0; k < data.cols(); ++k) most = std::max(most, quality_of(data.col(k)).longest_gap);
+        bool bridges = true;  // each gap lies between samples, and less is missing than measured
+        for (Index k = 0; k < data.cols(); ++k) {
+          const ChannelQuality q = quality_of(data.col(k));
+          most = std::max(most, q.longest_gap);
+          const bool ends = std::isfinite(data(0, k)) && std::isfinite(data(data.rows() - 1, k));
+          bridges = bridges && ends && 2 * q.missing < q.samples;
+        }
         throw UnusableRecord(
             {record, 0, channels[static_cast<std::size_t>(c)]},
             fmt::format("has a gap of {} samples from sample {} on, expected none over {} and none at an end", gap, t, longest),
             fmt::format("cut the record, leave the channel out (--set 'exclude=[\"{}\"]'){}",
                         channels[static_cast<std::size_t>(c)],
-                        t == 0 || end == data.rows() ? "" : fmt::format(", or bridge gaps (--set longest_gap={})", most)));
+                        !bridges ? "" : fmt::format(", or bridge gaps (--set longest_gap={})", most)));
       }
       const double before = data(t - 1, c), step = (data(end, c) - before) / static_cast<double>(gap + 1);
       for (Index k = t; k < end; ++k) data(k, c) = before + step * static_cast<double>(k - t + 1);
