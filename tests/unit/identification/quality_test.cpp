@@ -118,9 +118,29 @@ TEST(FillGaps, AStraightLineBridgesAGap) {
   EXPECT_EQ(fill_gaps(data, {"a", "b"}, 0, "r.csv"), 0);
 }
 
+// A bridge over more than was measured is no measurement, and none holds at an end; another channel's gap counts too.
+TEST(FillGaps, ABridgeIsAdvisedOnlyWhereItHolds) {
+  const auto advised = [](const std::vector<double>& a, const std::vector<double>& b) {
+    Eigen::MatrixXd data(5, 2);
+    data << column(a), column(b);
+    try {
+      (void)fill_gaps(data, {"a", "b"}, 0, "r.csv");
+    } catch (const UnusableRecord& error) {
+      return std::string(error.what()).find("longest_gap") != std::string::npos;
+    }
+    ADD_FAILURE() << "a gap is bridged";
+    return false;
+  };
+  const std::vector<double> whole = {1, 2, 3, 4, 5}, inside = {1, kMissing, 3, 4, 5},
+                            mostly = {1, kMissing, kMissing, kMissing, 5}, open = {1, 2, 3, 4, kMissing};
+  EXPECT_TRUE(advised(inside, whole));
+  EXPECT_FALSE(advised(mostly, whole));
+  EXPECT_FALSE(advised(inside, open));
+}
+
 TEST(FillGaps, ALongerGapOrOneAtAnEndIsRefusedNamingTheChannel) {
   const std::vector<std::vector<double>> refused = {
-      {1.0, kMissing, kMissing, kMissing, 2.0}, {kMissing, 1.0, 2.0}, {1.0, 2.0, kMissing}, {kMissing}};
+      {1.0, kMissing, kMissing, kMissing, 2.0, 1.0, 2.0}, {kMissing, 1.0, 2.0}, {1.0, 2.0, kMissing}, {kMissing}};
   for (const std::vector<double>& values : refused) {
     Eigen::MatrixXd data = column(values);
     try {
