@@ -2,8 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <cmath>
-
 #include "core/error.hpp"
 #include "io/csv.hpp"
 #include "io/toml_value.hpp"
@@ -18,26 +16,23 @@ void ParameterEntry::add_to(io::FieldTable& table) {
       .number("initial", initial, "", range, "value as the model stands", true)
       .number("lower", lower, "", range, "lower bound", true)
       .number("upper", upper, "", range, "upper bound", true)
-      .number("nominal", nominal, "", range, "value before `initial` was fitted to measurements; step 6 writes it");
+      .number("nominal", nominal, "", range,
+              "value before `initial` was fitted to measurements, which step 6 writes; not used where the bounds exclude it");
 }
 
 fe::Parameter ParameterEntry::parameter(const std::filesystem::path& file) const {
-  const auto outside = [&](const char* key, double value) {
-    return parameter_error(file, name,
-                           fmt::format("lower, {}, upper are {}, {}, {}, expected lower <= {} <= upper", key,
-                                       io::format_number(lower), io::format_number(value), io::format_number(upper), key),
-                           fmt::format("put the bounds around the {} value", key));
-  };
-  if (!(lower <= initial && initial <= upper)) throw outside("initial", initial);
+  if (!(lower <= initial && initial <= upper))
+    throw parameter_error(file, name,
+                          fmt::format("lower, initial, upper are {}, {}, {}, expected lower <= initial <= upper",
+                                      io::format_number(lower), io::format_number(initial), io::format_number(upper)),
+                          "put the bounds around the initial value");
   fe::Parameter p;
   p.name = name;
   p.unit = unit;
   p.initial = initial;
   p.lower = lower;
   p.upper = upper;
-  if (std::isnan(nominal)) return p;
-  if (!(lower <= nominal && nominal <= upper)) throw outside("nominal", nominal);
-  p.nominal = nominal;
+  if (lower <= nominal && nominal <= upper) p.nominal = nominal;
   return p;
 }
 

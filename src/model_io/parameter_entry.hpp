@@ -18,7 +18,9 @@ struct ParameterEntry {
   /// Adds the keys to a table.
   void add_to(io::FieldTable& table);
 
-  /// Name, unit and values, the rest by default. @throws InputError unless the values lie between the bounds
+  /// Name, unit and values, the rest by default. A nominal value that the bounds exclude is left out: who set them knows
+  /// better.
+  /// @throws InputError unless the initial value lies between the bounds
   [[nodiscard]] fe::Parameter parameter(const std::filesystem::path& file) const;
 };
 
