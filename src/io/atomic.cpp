@@ -160,10 +160,11 @@ std::unique_lock<std::mutex> abandon_partial(const fs::path& partial) {
   constexpr auto pause = std::chrono::milliseconds(10);
   std::unique_lock<std::mutex> lock(g_publishing);
   std::error_code ignored;
-  for (int attempt = 0; attempt < most_attempts; ++attempt) {
+  int gone = 0;  // times in a row: a writer may make the folder anew
+  for (int attempt = 0; attempt < most_attempts && gone < 2; ++attempt) {
+    if (attempt > 0) std::this_thread::sleep_for(pause);
     fs::remove_all(partial, ignored);
-    if (!fs::exists(partial, ignored)) break;
-    std::this_thread::sleep_for(pause);
+    gone = fs::exists(partial, ignored) ? 0 : gone + 1;
   }
   return lock;
 }
