@@ -80,7 +80,7 @@ ModesInOrder modes_in_order(const MeasuredFrequencies& measured, const Eigen::Ve
   return found;
 }
 
-/// Whether one factor of a known slip is between all pairs, of which there are enough for it to be no chance.
+/// Whether all pairs differ by one factor of a known slip. Few pairs do so by chance, so a least number of them is asked for.
 bool differ_by_a_slip(const ModesInOrder& modes, const MeasuredFrequencies& measured) {
   if (modes.ratios.empty() || !slip_of_factor(1.0 / modes.ratio())) return false;
   const Index n = std::ssize(modes.ratios);
