@@ -8,7 +8,7 @@
 #include <numbers>
 #include <optional>
 
-#include "core/angle.hpp"
+#include "core/units.hpp"
 
 namespace twindeck::aero {
 namespace {

@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <utility>
 
-#include "core/angle.hpp"
 #include "core/error.hpp"
+#include "core/units.hpp"
 
 namespace twindeck::aero {
 

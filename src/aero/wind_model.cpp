@@ -7,8 +7,8 @@
 
 #include "aero/follow_mode.hpp"
 #include "aero/polar.hpp"
-#include "core/angle.hpp"
 #include "core/lists.hpp"
+#include "core/units.hpp"
 #include "fe/assembly_elements.hpp"
 #include "linalg/cholesky.hpp"
 #include "transient/reduced_basis.hpp"

@@ -1,6 +1,8 @@
 #pragma once
 
+#include <cmath>
 #include <cstdint>
+#include <numbers>
 
 namespace twindeck {
 
@@ -23,13 +25,16 @@ namespace twindeck {
 /// White number: uniform, mean 0, variance 1. Use it for loads of which hundreds act on a mode at once and thousands one after
 /// the other. The motion is then normal by the central limit theorem, at a fifth of the cost of normal numbers.
 [[nodiscard]] inline double white_number(std::uint64_t seed, std::uint64_t stream, std::uint64_t index) {
-  constexpr double half_width =
-      1.7320508075688772;  // sqrt(3): the variance of a uniform number is its half width squared by three
-  return half_width * (2.0 * uniform_number(seed, stream, index) - 1.0);
+  // The variance of a uniform number is its half width squared by three.
+  return std::numbers::sqrt3 * (2.0 * uniform_number(seed, stream, index) - 1.0);
 }
 
 /// Standard normal number from two uniform ones (Box and Muller, 1958, Ann. Math. Stat. 29, 610-611): sqrt(-2 ln u1) cos(2 pi
 /// u2), u1 in ]0, 1]. Uses the positions 2 index and 2 index + 1 of the stream.
-[[nodiscard]] double normal_number(std::uint64_t seed, std::uint64_t stream, std::uint64_t index);
+[[nodiscard]] inline double normal_number(std::uint64_t seed, std::uint64_t stream, std::uint64_t index) {
+  const double u1 = 1.0 - uniform_number(seed, stream, 2 * index);
+  const double u2 = uniform_number(seed, stream, 2 * index + 1);
+  return std::sqrt(-2.0 * std::log(u1)) * std::cos(2.0 * std::numbers::pi * u2);
+}
 
 }  // namespace twindeck

@@ -5,8 +5,9 @@
 #include <charconv>
 #include <cmath>
 #include <map>
-#include <numbers>
 #include <vector>
+
+#include "core/letters.hpp"
 
 namespace twindeck {
 namespace {
@@ -73,15 +74,9 @@ const Unit* find_symbol(std::string_view name) {
   return found == index.end() ? nullptr : &found->second;
 }
 
-std::string lower(std::string_view text) {
-  std::string out(text);
-  std::transform(out.begin(), out.end(), out.begin(), [](unsigned char ch) { return static_cast<char>(std::tolower(ch)); });
-  return out;
-}
-
 std::string nearest_symbol(std::string_view name) {
   for (const Symbol& symbol : symbols()) {
-    if (lower(symbol.name) == lower(name)) return symbol.name;  // "kn", "gpa", "HZ": the commonest slip
+    if (lower_case(symbol.name) == lower_case(name)) return symbol.name;  // "kn", "gpa", "HZ": the commonest slip
   }
   for (std::size_t cut = 1; cut < name.size(); ++cut) {  // products written without a blank: "kNm" for "kN m"
     if (find_symbol(name.substr(0, cut)) && find_symbol(name.substr(cut))) {
@@ -226,11 +221,7 @@ std::string proposals(const Unit& wanted, std::string_view field_unit) {
   return list;
 }
 
-std::string_view trimmed(std::string_view text) {
-  while (!text.empty() && std::isspace(static_cast<unsigned char>(text.front()))) text.remove_prefix(1);
-  while (!text.empty() && std::isspace(static_cast<unsigned char>(text.back()))) text.remove_suffix(1);
-  return text;
-}
+std::string_view trimmed(std::string_view text) { return without_blanks(text, " \t\n\v\f\r"); }
 
 }  // namespace
 

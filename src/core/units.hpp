@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <numbers>
 #include <string_view>
 
 #include "core/error.hpp"
@@ -10,6 +11,9 @@ namespace twindeck {
 /// [SI] Largest absolute value of a number in a file or a configuration. Quantities of real structures are far smaller.
 /// Products of five such numbers are still finite.
 constexpr double largest_number = 1e60;
+
+inline constexpr double degrees = 180.0 / std::numbers::pi;  ///< degrees in a radian
+inline constexpr double radians = std::numbers::pi / 180.0;  ///< radians in a degree
 
 /// A unit of measurement: value in SI base units = factor * value + offset.
 ///

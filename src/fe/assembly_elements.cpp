@@ -4,7 +4,6 @@
 #include <set>
 
 #include "core/error.hpp"
-#include "fe/shell_quad.hpp"
 
 namespace twindeck::fe {
 

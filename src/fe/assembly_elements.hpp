@@ -4,9 +4,10 @@
 #include <cstdint>
 #include <vector>
 
+#include "fe/bar.hpp"
 #include "fe/beam.hpp"
-#include "fe/elements.hpp"
 #include "fe/model.hpp"
+#include "fe/shell_quad.hpp"
 #include "fe/shell_triangle.hpp"
 #include "fe/solid.hpp"
 #include "fe/solid_quadratic.hpp"

@@ -2,7 +2,6 @@
 
 #include "core/error.hpp"
 #include "core/lists.hpp"
-#include "fe/assembly.hpp"
 
 namespace twindeck::fe {
 

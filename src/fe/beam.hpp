@@ -5,7 +5,6 @@
 #include <cstdint>
 
 #include "fe/element_matrices.hpp"
-#include "fe/elements.hpp"
 
 namespace twindeck::fe {
 

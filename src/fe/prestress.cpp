@@ -5,7 +5,6 @@
 #include <Eigen/Dense>
 #include <cmath>
 
-#include "fe/assembly.hpp"
 #include "fe/assembly_pattern.hpp"
 #include "fe/assembly_terms.hpp"
 #include "fe/large_displacement.hpp"

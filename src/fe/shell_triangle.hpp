@@ -1,12 +1,12 @@
 #pragma once
 
-#include "fe/elements.hpp"
+#include "fe/shell_quad.hpp"
 
 namespace twindeck::fe {
 
 using Matrix18 = Eigen::Matrix<double, 18, 18>;
 
-/// Flat three-node shell, the triangle beside the four-node shell of elements.hpp: membrane with drilling rotations
+/// Flat three-node shell, the triangle beside the four-node shell of shell_quad.hpp: membrane with drilling rotations
 /// (triangle.hpp), discrete-Mindlin plate bending, discrete-Kirchhoff where rigid in shear, mass on linear shapes. Nodes
 /// anticlockwise seen from the normal x12 × x13. Matrices are in global axes, x y z rx ry rz of node 1, 2, 3, (18 × 18).
 struct TriangleGeometry {

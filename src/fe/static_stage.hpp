@@ -2,7 +2,6 @@
 
 #include <Eigen/Core>
 
-#include "fe/dof_map.hpp"
 #include "fe/model.hpp"
 #include "fe/prestress.hpp"
 

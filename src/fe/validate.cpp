@@ -7,9 +7,7 @@
 #include <set>
 
 #include "core/error.hpp"
-#include "fe/assembly.hpp"
 #include "fe/assembly_elements.hpp"
-#include "fe/dof_map.hpp"
 #include "fe/matrix_element.hpp"
 #include "fe/validate_parts.hpp"
 

@@ -7,7 +7,7 @@
 #include <set>
 
 #include "core/lists.hpp"
-#include "fe/assembly.hpp"
+#include "fe/assembly_parameters.hpp"
 
 namespace twindeck::fe {
 

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <string>
 #include <vector>
 
 #include "core/samples.hpp"

@@ -7,9 +7,9 @@
 #include <set>
 
 #include "core/error.hpp"
+#include "core/letters.hpp"
 #include "core/units.hpp"
 #include "io/atomic.hpp"
-#include "io/letters.hpp"
 #include "io/spreadsheet.hpp"
 #include "io/text_lines.hpp"
 

@@ -14,8 +14,8 @@
 #include <vector>
 
 #include "core/error.hpp"
+#include "core/letters.hpp"
 #include "io/atomic.hpp"
-#include "io/letters.hpp"
 #include "io/regular_file.hpp"
 
 namespace twindeck::io {

@@ -10,8 +10,8 @@
 #include <vector>
 
 #include "core/error.hpp"
+#include "core/letters.hpp"
 #include "io/atomic.hpp"
-#include "io/letters.hpp"
 #include "io/regular_file.hpp"
 
 namespace twindeck::matrix_io {
@@ -41,9 +41,8 @@ class MarketReader {
     std::string line, mark, object, format, field, symmetry;
     next(line);
     std::istringstream(line) >> mark >> object >> format >> field >> symmetry;
-    if (io::lower_case(mark) != "%%matrixmarket")
-      fail("is no Matrix Market file", "its first line must begin with %%MatrixMarket");
-    const std::string kind = io::lower_case(object + " " + format + " " + field + " " + symmetry);
+    if (lower_case(mark) != "%%matrixmarket") fail("is no Matrix Market file", "its first line must begin with %%MatrixMarket");
+    const std::string kind = lower_case(object + " " + format + " " + field + " " + symmetry);
     if (kind == "matrix coordinate real symmetric" || kind == "matrix coordinate integer symmetric") return true;
     if (kind == "matrix coordinate real general" || kind == "matrix coordinate integer general") return false;
     fail("holds a '" + kind + "'", "write it as 'matrix coordinate real symmetric' (or general with symmetric numbers)");

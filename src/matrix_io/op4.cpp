@@ -17,7 +17,7 @@
 #include <vector>
 
 #include "core/error.hpp"
-#include "io/letters.hpp"
+#include "core/letters.hpp"
 #include "io/regular_file.hpp"
 #include "matrix_io/matrix_market.hpp"
 
@@ -125,12 +125,12 @@ class Op4Reader : public Op4Source {
     next();
     const auto number_at = [&](std::size_t i) {
       const std::string field = line_text_.size() > i * header_width ? line_text_.substr(i * header_width, header_width) : "";
-      return whole(std::string(io::without_blanks(field, " ")));
+      return whole(std::string(without_blanks(field, " ")));
     };
     const long columns = number_at(0), rows = number_at(1), type = number_at(3);
     take_header(columns, rows, number_at(2), type);
     words_ = type == 2 ? 2 : 1;
-    const std::string format = io::upper_case(line_text_.substr(std::min(line_text_.size(), 5 * header_width)));
+    const std::string format = upper_case(line_text_.substr(std::min(line_text_.size(), 5 * header_width)));
     const auto e = format.find_first_of("ED");
     const auto [end, error] = e == std::string::npos
                                   ? std::from_chars_result{nullptr, std::errc::invalid_argument}
@@ -356,6 +356,6 @@ Eigen::Index op4_rows(const std::filesystem::path& file) {
   return is_binary_op4(file) ? BinaryOp4(file).rows() : Op4Reader(file).rows();
 }
 
-bool is_op4(const std::filesystem::path& file) { return io::upper_case(file.extension().string()) == ".OP4"; }
+bool is_op4(const std::filesystem::path& file) { return upper_case(file.extension().string()) == ".OP4"; }
 
 }  // namespace twindeck::matrix_io

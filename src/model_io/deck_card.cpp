@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <cctype>
 #include <charconv>
 #include <cmath>
@@ -154,7 +153,7 @@ class Parser {
 
 }  // namespace
 
-std::string trimmed(const std::string& text) { return std::string(io::without_blanks(text, " \t\r")); }
+std::string trimmed(const std::string& text) { return std::string(without_blanks(text, " \t\r")); }
 
 bool is_whole_number(const std::string& field) {
   const std::size_t sign = !field.empty() && (field[0] == '-' || field[0] == '+') ? 1 : 0;

@@ -10,13 +10,11 @@
 #include <utility>
 #include <vector>
 
-#include "io/letters.hpp"
+#include "core/letters.hpp"
 
 /// Inside of the library: what the cards of every dialect are, fields of text that stand at a place of a file.
 namespace twindeck::model_io {
 
-using io::lower_case;
-using io::upper_case;  ///< names are compared in upper case
 /// Without the blanks at both ends, and without the carriage return of another system's line.
 [[nodiscard]] std::string trimmed(const std::string& text);
 /// True for a whole number of at most 17 digits, with or without a sign, without a point.

@@ -344,4 +344,11 @@ void renumber_nodes(fe::Model& model, const std::vector<int>& now) {
   std::erase_if(model.supports, [](const fe::Support& support) { return support.node < 0; });
 }
 
+void group_equal_masses(std::vector<fe::PointMass>& masses) {
+  std::map<double, int> count;
+  for (const fe::PointMass& mass : masses) ++count[mass.mass_kg];
+  for (fe::PointMass& mass : masses)
+    if (count[mass.mass_kg] > 1) mass.group = fmt::format("mass_of_{:g}", mass.mass_kg);
+}
+
 }  // namespace twindeck::model_io

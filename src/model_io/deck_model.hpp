@@ -125,6 +125,11 @@ void for_each_joined_node(fe::Model& model, const std::function<void(int&)>& f);
 ///             mass may name a node that is left out.
 void renumber_nodes(fe::Model& model, const std::vector<int>& now);
 
+/// Puts point masses of one mass into one group, mass_of_ with that number: cards of decks name no group, and a group for each
+/// card would be a place of its own for a diagnosis. A mass that no other equals keeps its group.
+/// @param masses  in the deck's own units
+void group_equal_masses(std::vector<fe::PointMass>& masses);
+
 /// Of a node that follows another as the end of a rigid arm r, u_s = u_m + theta_m × r, theta_s = theta_m: factor of the
 /// master's degree of freedom `from` (0-5) in the slave's `to`.
 inline double rigid_arm_factor(const Eigen::Vector3d& r, int to, int from) {

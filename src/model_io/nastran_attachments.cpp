@@ -10,7 +10,6 @@
 
 #include "core/lists.hpp"
 #include "fe/beam_frame.hpp"
-#include "model_io/equal_masses.hpp"
 #include "model_io/names.hpp"
 #include "model_io/nastran_elements.hpp"
 #include "model_io/nastran_properties.hpp"

@@ -5,15 +5,14 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
+#include "core/units.hpp"
 #include "model_io/nastran_properties.hpp"
 
 /// Grids and coordinate systems, each resolved when it is first asked for: systems lean on grids and grids on systems.
 namespace twindeck::model_io::nastran {
 namespace {
 
-constexpr double radians = std::numbers::pi / 180.0;
 constexpr std::size_t longest_chain = 100;  ///< of systems defined in one another
 
 /// Axes from the origin a, a point b on z and a point c in the x-z plane.

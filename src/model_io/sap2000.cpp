@@ -16,7 +16,6 @@
 #include "model_io/deck_card.hpp"
 #include "model_io/deck_model.hpp"
 #include "model_io/deck_units.hpp"
-#include "model_io/equal_masses.hpp"
 #include "model_io/profiles.hpp"
 #include "model_io/sap2000_constraints.hpp"
 

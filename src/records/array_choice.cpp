@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "core/error.hpp"
-#include "io/letters.hpp"
+#include "core/letters.hpp"
 #include "records/take_clock.hpp"
 #include "records/text_cells.hpp"
 
@@ -18,7 +18,7 @@ namespace {
 
 std::string bare(const std::string& name) {
   const std::size_t last = name.find_last_of("/.");
-  return io::lower_case(name.substr(last == std::string::npos ? 0 : last + 1));
+  return lower_case(name.substr(last == std::string::npos ? 0 : last + 1));
 }
 
 bool is_time(const std::string& name) {

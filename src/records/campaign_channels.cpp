@@ -14,12 +14,13 @@
 #include "records/recorded_unit.hpp"
 
 namespace twindeck::records {
-using Eigen::Index;
-
 namespace {
 
 /// [-] Direction cosines may differ from length 1 by this rounding, as in the other tables of channels.
 constexpr double kLengthTolerance = 0.02;
+
+/// Least |dz| of a vertical channel: a tilt of 5 degrees, more than the slope of a deck. It reduces a vertical motion by 0.4 %.
+constexpr double kLeastVertical = 0.9962;
 
 std::string one_of(const io::CsvTable& table, std::size_t row, const std::string& column,
                    const std::vector<std::string>& allowed) {
@@ -31,7 +32,7 @@ std::string one_of(const io::CsvTable& table, std::size_t row, const std::string
 
 void read_place(const io::CsvTable& table, std::size_t row, CampaignChannel& channel) {
   int given = 0;
-  for (Index k = 0; k < 3; ++k) {
+  for (Eigen::Index k = 0; k < 3; ++k) {
     const auto axis = static_cast<std::size_t>(k);
     const char* const cosine = std::array{"dx", "dy", "dz"}[axis];
     channel.position_m[k] = table.number_or(row, std::array{"x_m", "y_m", "z_m"}[axis], channel.position_m[k]);
@@ -110,6 +111,20 @@ std::vector<CampaignChannel> read_campaign_channels(const std::filesystem::path&
                     "need the same for all channels, and RMS values and spectra are not in SI units",
                     file.string(), fmt::join(without_scale, ", ")));
   return channels;
+}
+
+std::string other_than_vertical_acceleration(const CampaignChannel& channel, const Eigen::Vector3d& point_m,
+                                             double tolerance_m) {
+  if (channel.is_input) return "its role is input";
+  if (channel.quantity != "acceleration") return "it is a " + channel.quantity;
+  if (!channel.direction.allFinite()) return "its direction dx, dy, dz is not given";
+  if (std::abs(channel.direction.z()) < kLeastVertical)
+    return fmt::format("its direction is ({:.3g}, {:.3g}, {:.3g})", channel.direction.x(), channel.direction.y(),
+                       channel.direction.z());
+  const double distance = (channel.position_m - point_m).norm();
+  if (distance > tolerance_m)  // false for a position that is not given (NaN)
+    return fmt::format("it lies {:.3g} m from the point, expected at most {:.3g} m", distance, tolerance_m);
+  return "";
 }
 
 }  // namespace twindeck::records

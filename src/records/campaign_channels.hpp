@@ -27,4 +27,8 @@ struct CampaignChannel {
 [[nodiscard]] std::vector<CampaignChannel> read_campaign_channels(const std::filesystem::path& file,
                                                                   std::vector<std::string>& warnings);
 
+/// Why a channel is not the vertical acceleration at a point, in words; empty where it is.
+[[nodiscard]] std::string other_than_vertical_acceleration(const CampaignChannel& channel, const Eigen::Vector3d& point_m,
+                                                           double tolerance_m);
+
 }  // namespace twindeck::records

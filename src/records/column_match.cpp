@@ -7,9 +7,8 @@
 #include <iterator>
 
 #include "core/error.hpp"
+#include "core/letters.hpp"
 #include "core/lists.hpp"
-#include "io/letters.hpp"
-#include "records/text_cells.hpp"
 
 namespace twindeck::records {
 using Eigen::Index;
@@ -21,7 +20,7 @@ constexpr const char* kByKey =
 
 /// Letters and digits in lower case: "Acc 1", "ACC_1" and "acc1" are one name.
 std::string folded(const std::string& name) {
-  std::string text = io::lower_case(name);
+  std::string text = lower_case(name);
   std::erase_if(text, [](char c) { return c == ' ' || c == '_' || c == '-' || c == '.'; });
   return text;
 }

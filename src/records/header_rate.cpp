@@ -4,8 +4,7 @@
 #include <regex>
 #include <string>
 
-#include "io/letters.hpp"
-#include "records/text_cells.hpp"
+#include "core/letters.hpp"
 
 namespace twindeck::records {
 namespace {
@@ -44,7 +43,7 @@ const Stated& stated_interval() {
 
 std::optional<double> rate_in_header_line(std::string_view text) {
   constexpr std::ptrdiff_t longest = 300;  // letters of a statement; a regular expression needs memory for each
-  const std::string line = io::lower_case(text);
+  const std::string line = lower_case(text);
   for (const bool interval : {true, false}) {
     const Stated& stated = interval ? stated_interval() : stated_rate();
     for (auto at = line.begin(); at != line.end(); ++at) {
@@ -73,13 +72,13 @@ bool is_time_name(std::string_view text) {
       "timestamp"  // "sensorTimestamp_since1970"
       "|(?:^|[^a-z])(?:time|zeit|zeitstempel|uhrzeit|tempo|tiempo|datum|date|datetime|data/ora|elapsed|sec|seconds|epoch|utc"
       "|millis|t(?!\\d))(?:m?s)?(?![a-z])");  // "time_s", "tms"; T09y is a sensor
-  return std::regex_search(io::lower_case(text), time);
+  return std::regex_search(lower_case(text), time);
 }
 
 std::optional<long> samples_in_header_line(std::string_view text) {
   static const std::regex stated(
       R"(\bnpts\b\W{0,9}(\d{2,9})\b|\b(\d{2,9}) samples\b|number of (?:points|samples)\W{0,9}(\d{2,9})\b)");
-  const std::string line = io::lower_case(text.substr(0, 300));  // a regular expression needs memory for each letter
+  const std::string line = lower_case(text.substr(0, 300));  // a regular expression needs memory for each letter
   std::smatch found;
   if (!std::regex_search(line, found, stated)) return std::nullopt;
   return std::stol(found[1].matched ? found[1] : found[2].matched ? found[2] : found[3]);

@@ -8,7 +8,7 @@
 #include <utility>
 
 #include "core/error.hpp"
-#include "io/letters.hpp"
+#include "core/letters.hpp"
 #include "io/npy.hpp"
 #include "io/regular_file.hpp"
 #include "io/spreadsheet.hpp"
@@ -49,7 +49,7 @@ bool is_universal(const std::string& text) {
   std::size_t at = 0;
   while (at < text.size()) {
     const std::size_t end = std::min(text.find('\n', at), text.size());
-    const std::string_view line = io::without_blanks(std::string_view(text).substr(at, end - at));
+    const std::string_view line = without_blanks(std::string_view(text).substr(at, end - at));
     at = end + 1;
     if (!line.empty()) return line == "-1";
   }
@@ -83,33 +83,6 @@ void refuse_containers(const fs::path& file, std::string_view text) {
     if (text.starts_with(one.begin) && !io::is_spreadsheet(file))
       throw InputError({file.string(), 0, ""}, std::string("is ") + one.what, one.mend);
 }
-
-/// Samples as they come, part by part.
-class Gathered {
- public:
-  void add(Index row, Index column, const Eigen::MatrixXd& block) {
-    const Index rows = row + block.rows(), columns = column + block.cols();
-    if (rows > all_.rows() || columns > all_.cols()) {
-      // Half as much again, so that a long text file is not copied at every part.
-      const Index old_rows = all_.rows(), old_columns = all_.cols(),
-                  room = rows > old_rows ? std::max(rows, old_rows + old_rows / 2) : old_rows;
-      all_.conservativeResize(room, std::max(columns, old_columns));
-      const double nan = std::numeric_limits<double>::quiet_NaN();
-      all_.bottomRows(room - old_rows).setConstant(nan);
-      all_.topRows(old_rows).rightCols(all_.cols() - old_columns).setConstant(nan);
-    }
-    all_.block(row, column, block.rows(), block.cols()) = block;
-    used_ = std::max(used_, rows);
-  }
-  Eigen::MatrixXd take() {
-    all_.conservativeResize(used_, Eigen::NoChange);
-    return std::move(all_);
-  }
-
- private:
-  Eigen::MatrixXd all_;
-  Index used_ = 0;
-};
 
 }  // namespace
 
@@ -146,10 +119,24 @@ RecordInfo scan(const fs::path& file, const Visitor& visit, const ReadOptions& o
 
 Record read(const fs::path& file, const ReadOptions& options) {
   Record record;
-  Gathered gathered;
-  const auto gather = [&](Index row, Index column, const Eigen::MatrixXd& block) { gathered.add(row, column, block); };
+  Eigen::MatrixXd& all = record.samples;
+  Index used = 0;
+  const auto gather = [&](Index row, Index column, const Eigen::MatrixXd& block) {
+    const Index rows = row + block.rows(), columns = column + block.cols();
+    if (rows > all.rows() || columns > all.cols()) {
+      // Half as much again, so that a long text file is not copied at every part.
+      const Index old_rows = all.rows(), old_columns = all.cols(),
+                  room = rows > old_rows ? std::max(rows, old_rows + old_rows / 2) : old_rows;
+      all.conservativeResize(room, std::max(columns, old_columns));
+      const double nan = std::numeric_limits<double>::quiet_NaN();
+      all.bottomRows(room - old_rows).setConstant(nan);
+      all.topRows(old_rows).rightCols(all.cols() - old_columns).setConstant(nan);
+    }
+    all.block(row, column, block.rows(), block.cols()) = block;
+    used = std::max(used, rows);
+  };
   record.info = scan(file, gather, options);
-  record.samples = gathered.take();
+  all.conservativeResize(used, Eigen::NoChange);
   if (!record.info.clock.gaps.empty()) record.samples = on_the_clock(Samples(record.samples), record.info, file);
   return record;
 }

@@ -3,7 +3,7 @@
 #include <string_view>
 #include <utility>
 
-#include "io/letters.hpp"
+#include "core/letters.hpp"
 #include "records/text_cells.hpp"
 
 namespace twindeck::records {
@@ -20,7 +20,7 @@ std::string plain(const std::string& unit) {
   for (const auto& [from, to] : spellings)
     for (std::size_t at = text.find(from); at != std::string::npos; at = text.find(from, at + to.size()))
       text.replace(at, from.size(), to);
-  return io::lower_case(text);
+  return lower_case(text);
 }
 
 constexpr double kG = 9.80665, kInch = 0.0254, kFoot = 0.3048,

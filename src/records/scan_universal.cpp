@@ -12,8 +12,8 @@
 #include <string>
 #include <utility>
 
+#include "core/letters.hpp"
 #include "core/lists.hpp"
-#include "io/letters.hpp"
 #include "records/frequency_responses.hpp"
 #include "records/take_clock.hpp"
 #include "records/text_cells.hpp"
@@ -188,7 +188,7 @@ std::vector<double> series_numbers(UniversalLines& in, const std::string& line) 
   if (line.find_first_not_of("0123456789+-.eEdD \t") == std::string::npos) return numbers_in(line);
   std::vector<double> values;
   for (const std::string_view cell : cells_of(line, ' ')) {
-    const std::string word = io::lower_case(cell.substr(cell.starts_with('-') || cell.starts_with('+') ? 1 : 0));
+    const std::string word = lower_case(cell.substr(cell.starts_with('-') || cell.starts_with('+') ? 1 : 0));
     if (word == "nan" || word == "inf" || word == "infinity" || word.find_first_not_of('*') == std::string::npos) {
       values.push_back(std::numeric_limits<double>::quiet_NaN());
       continue;

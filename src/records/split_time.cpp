@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "io/letters.hpp"
+#include "core/letters.hpp"
 #include "records/text_cells.hpp"
 #include "records/time_stamp.hpp"
 
@@ -45,7 +45,7 @@ bool hold_parts(const std::vector<std::vector<std::string_view>>& rows, const Ti
 TimeParts by_name(const std::vector<std::string>& names) {
   TimeParts parts = kNoParts;
   for (std::size_t c = 0; c < names.size(); ++c) {
-    const std::string name = io::lower_case(trimmed(names[c]));
+    const std::string name = lower_case(trimmed(names[c]));
     for (std::size_t k = 0; k < kTimeParts; ++k) {
       if (parts[k] >= 0 || !is_one_of(kParts[k].names, name)) continue;
       parts[k] = static_cast<int>(c);

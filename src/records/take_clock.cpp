@@ -7,11 +7,10 @@
 #include <limits>
 
 #include "core/error.hpp"
-#include "io/letters.hpp"
+#include "core/letters.hpp"
 #include "records/text_cells.hpp"
 
 namespace twindeck::records {
-namespace fs = std::filesystem;
 using Eigen::Index;
 
 namespace {
@@ -58,7 +57,7 @@ void note_faults(RecordInfo& info) {
 }  // namespace
 
 double time_unit_s(const std::string& unit) {
-  const std::string text = io::lower_case(trimmed(unit));
+  const std::string text = lower_case(trimmed(unit));
   if (is_one_of("|s|sec|secs|second|seconds|", text)) return 1.0;
   if (is_one_of("|ms|msec|millis|millisecond|milliseconds|", text)) return 1e-3;
   if (is_one_of("|us|\xC2\xB5s|\xCE\xBCs|usec|micros|microseconds|", text)) return 1e-6;
@@ -71,7 +70,7 @@ double time_unit_s(const std::string& unit) {
 std::pair<std::string, double> without_time_unit(const std::string& name) {
   const std::size_t last = name.find_last_of("_ ([");
   if (last == std::string::npos) return {name, 0.0};
-  const std::string before = name.substr(0, name.find_last_not_of("_ ([", last) + 1), text = io::lower_case(before);
+  const std::string before = name.substr(0, name.find_last_not_of("_ ([", last) + 1), text = lower_case(before);
   if (text.ends_with(" of") || text.ends_with("_of")) {  // "ms of day": the last word tells where the time begins
     const double whole = time_unit_s(before.substr(0, before.size() - 3));
     return {name, whole > 0.0 ? whole : without_time_unit(before.substr(0, before.size() - 3)).second};
@@ -114,7 +113,7 @@ void take_stated_rate(double rate_Hz, const std::string& source, RecordInfo& inf
   }
 }
 
-Samples on_the_clock(Samples samples, const RecordInfo& info, const fs::path& file) {
+Samples on_the_clock(Samples samples, const RecordInfo& info, const std::filesystem::path& file) {
   const RecordClock& clock = info.clock;
   if (info.apart || clock.gaps.empty() || clock.changes_rate >= 0 || clock.steps_back >= 0) return samples;
   const auto back = std::ranges::count_if(clock.gaps, [](const ClockGap& gap) { return gap.samples < 0; });

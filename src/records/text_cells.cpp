@@ -6,12 +6,12 @@
 #include <cmath>
 #include <limits>
 
+#include "core/letters.hpp"
 #include "core/printable.hpp"
-#include "io/letters.hpp"
 
 namespace twindeck::records {
 
-std::string_view trimmed(std::string_view text) { return io::without_blanks(text, " \t\r\n\"'"); }
+std::string_view trimmed(std::string_view text) { return without_blanks(text, " \t\r\n\"'"); }
 
 bool is_one_of(std::string_view words, const std::string& word) {
   return !word.empty() && word.find('|') == std::string::npos && words.find('|' + word + '|') != std::string_view::npos;
@@ -105,7 +105,7 @@ std::optional<double> number_in(std::string_view cell, bool decimal_comma) {
       "|null|na|nd|nb|nv|ka|none|missing|lost|void|empty|undefined|ndef|nodata|novalue|nosignal|noinput|notavailable|"
       "keinedaten|keinwert|over|ovld|ovl|ol|overflow|overload|overrange|outofrange|offscale|sat|saturated|clip|clipped|under|"
       "underflow|underrange|invalid|bad|badvalue|open|opencircuit|burnout|fault|sensorfault|fail|failed|timeout|";
-  std::string text = io::lower_case(cell);
+  std::string text = lower_case(cell);
   if (text.find_first_not_of("-+*?.") == std::string::npos) return nan;  // "---", "****"
   text.erase(0, text.front() == '-' || text.front() == '+' ? 1 : 0);
   const bool of_sheet = text.starts_with('#') || text.starts_with("1.#");  // "#N/A", "#WERT!", "1.#QNAN"

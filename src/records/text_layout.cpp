@@ -9,8 +9,8 @@
 #include <set>
 
 #include "core/error.hpp"
+#include "core/letters.hpp"
 #include "core/lists.hpp"
-#include "io/letters.hpp"
 #include "io/text_lines.hpp"
 #include "records/header_rate.hpp"
 #include "records/record_clock.hpp"
@@ -95,7 +95,7 @@ std::vector<std::string_view> header_cells(std::string_view text, char separator
 }
 
 /// LabVIEW's last column name is "Comment"; rows have such a cell only if there is a comment.
-bool is_comment(std::string_view name) { return io::lower_case(trimmed(name)) == "comment"; }
+bool is_comment(std::string_view name) { return lower_case(trimmed(name)) == "comment"; }
 
 /// Number of columns that the line above a run names, without comments. 0 unless no cell is a value and one holds letters.
 std::size_t names_above(const std::vector<std::string>& lines, const Run& run, const TextLayout& layout) {
@@ -187,7 +187,7 @@ bool looks_like_unit(std::string_view cell) {
 }
 
 bool is_known_unit(std::string_view cell) {
-  std::string text = io::lower_case(trimmed(cell));
+  std::string text = lower_case(trimmed(cell));
   if (text.size() > 2 && (text.front() == '[' || text.front() == '(')) text = text.substr(1, text.size() - 2);
   return is_one_of("|s|sec|ms|g|mg|m/s2|m/s^2|m/s\xC2\xB2|m/s/s|v|mv|m/s|mm/s|mm|m|um|\xC2\xB5m|hz|kn|n|gal|cm/s2|", text);
 }
@@ -453,7 +453,7 @@ TextLayout find_layout(const fs::path& file) {
   const std::vector<std::string> lines = first_lines(file, layout);
   char fixed = '\0';
   if (!lines.empty()) {
-    const std::string first = io::lower_case(trimmed(lines.front()));
+    const std::string first = lower_case(trimmed(lines.front()));
     if (first.starts_with("sep=") && first.size() >= 5) fixed = first[4];
     if (first == "sep=") fixed = '\t';
   }

@@ -8,8 +8,7 @@
 #include <string>
 #include <utility>
 
-#include "io/letters.hpp"
-#include "records/text_cells.hpp"
+#include "core/letters.hpp"
 
 namespace twindeck::records {
 namespace {
@@ -63,7 +62,7 @@ long month_of(std::string_view word) {
       "01jan 01gen 01ene 02feb 02fev 02f\xC3\xA9v 03mar 03m\xC3\xA4r 03mrz 04apr 04abr 04avr 05may 05mai 05mag 06jun 06giu "
       "06juin 07jul 07lug 07juil 08aug 08ago 08ao\xC3\xBB 09sep 09set 10oct 10okt 10ott 11nov 12dec 12dez 12dic 12d\xC3\xA9"
       "c";
-  const std::string name = io::lower_case(word);
+  const std::string name = lower_case(word);
   for (const std::size_t letters : {4, 3}) {
     const std::size_t at = name.size() < letters ? std::string::npos : months.find(name.substr(0, letters));
     if (at != std::string::npos && months[at - 1] <= '9') return 10 * (months[at - 2] - '0') + months[at - 1] - '0';
@@ -114,7 +113,7 @@ std::optional<DayTime> time_of_day(Scanner& in, bool behind_date) {
       in.one_of(".,:") && in.number(part, digits) ? static_cast<double>(part) * std::pow(10.0, -digits) : 0.0;
   in.skip_blanks();
   std::string_view word = in.word();
-  if (const std::string half = io::lower_case(word); half == "am" || half == "pm") {
+  if (const std::string half = lower_case(word); half == "am" || half == "pm") {
     hour = hour % 12 + (half == "pm" ? 12 : 0);
     in.skip_blanks();
     word = in.word();

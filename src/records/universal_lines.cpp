@@ -8,7 +8,7 @@
 #include <cstdlib>
 
 #include "core/error.hpp"
-#include "io/letters.hpp"
+#include "core/letters.hpp"
 #include "io/regular_file.hpp"
 
 namespace twindeck::records {
@@ -85,10 +85,10 @@ long label_of(UniversalLines& in, double number) {
   return number < 0.0 ? -*size : *size;
 }
 
-bool is_delimiter(const std::string& line) { return io::without_blanks(line, " \t") == "-1"; }
+bool is_delimiter(const std::string& line) { return without_blanks(line, " \t") == "-1"; }
 
 std::string field(const std::string& line, std::size_t from, std::size_t width) {
-  return from < line.size() ? std::string(io::without_blanks(std::string_view(line).substr(from, width), " \t")) : "";
+  return from < line.size() ? std::string(without_blanks(std::string_view(line).substr(from, width), " \t")) : "";
 }
 
 bool is_blank(const std::string& line) { return line.find_first_not_of(" \t\x1a") == std::string::npos; }

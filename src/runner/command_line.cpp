@@ -8,8 +8,8 @@
 #include <map>
 
 #include "core/build_info.hpp"
+#include "core/letters.hpp"
 #include "io/atomic.hpp"
-#include "io/letters.hpp"
 #include "model_io/ansys.hpp"
 #include "model_io/nastran.hpp"
 #include "model_io/sap2000.hpp"
@@ -203,7 +203,7 @@ CommandLine parse_command_line(int argc, char** argv, const Step& step) {
     throw InputError({"command line", 0, "--out"}, "is missing",
                      "name the folder to write, for example --out results/x/" + step.token);
   if (!line.model || !fs::is_regular_file(*line.model) ||
-      (io::lower_case(line.model->extension().string()) != ".inp" && !model_io::is_sap2000_file(*line.model) &&
+      (lower_case(line.model->extension().string()) != ".inp" && !model_io::is_sap2000_file(*line.model) &&
        !model_io::is_nastran_file(*line.model) && !model_io::is_ansys_deck(*line.model)))
     check_folder("--model", line.model);
   check_folder("--campaign", line.campaign);

@@ -4,14 +4,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <complex>
 #include <optional>
 #include <utility>
 
 #include "core/error.hpp"
 #include "core/parallel.hpp"
 #include "signal/fft.hpp"
-#include "wind/wave_sums.hpp"
 
 namespace twindeck::wind {
 

@@ -10,8 +10,8 @@
 #include <utility>
 #include <vector>
 
-#include "core/angle.hpp"
 #include "core/error.hpp"
+#include "core/units.hpp"
 #include "io/csv.hpp"
 
 namespace twindeck::aero {

@@ -1,7 +1,11 @@
 #pragma once
 
+#include <algorithm>
 #include <string>
 #include <vector>
+
+#include "core/error.hpp"
+#include "core/lists.hpp"
 
 /// What the virtual bridge is and what its test campaign imposes.
 namespace twindeck::ponte {
@@ -72,7 +76,12 @@ struct CampaignSettings {
   double correction_spread = 0.15, frequency_weight = 2e-4;
 
   /// @throws InputError  for a name that no condition has
-  [[nodiscard]] const ConditionSettings& condition(const std::string& name) const;
+  [[nodiscard]] const ConditionSettings& condition(const std::string& name) const {
+    if (const auto at = std::ranges::find(conditions, name, &ConditionSettings::name); at != conditions.end()) return *at;
+    throw InputError({"", 0, "condition"},
+                     "'" + name + "' is not there" + did_you_mean(name, each_of(conditions, &ConditionSettings::name)),
+                     "add a table [[condition]] of this name");
+  }
 };
 
 }  // namespace twindeck::ponte

@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "aero/wind_study.hpp"
-#include "core/angle.hpp"
+#include "core/units.hpp"
 #include "io/csv.hpp"
 #include "linalg/cholesky.hpp"
 #include "steps/shared/model_source.hpp"

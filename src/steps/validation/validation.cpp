@@ -18,14 +18,14 @@
 #include "buffeting/paper_statements.hpp"
 #include "buffeting/simulated_runs.hpp"
 #include "buffeting/time_checks.hpp"
-#include "core/angle.hpp"
 #include "core/error.hpp"
 #include "core/lists.hpp"
+#include "core/units.hpp"
 #include "dynamics/loaded_model.hpp"
 #include "fe/model.hpp"
 #include "io/csv.hpp"
 #include "records/campaign.hpp"
-#include "records/vertical_channel.hpp"
+#include "records/campaign_channels.hpp"
 #include "signal/condition.hpp"
 #include "steps/shared/model_source.hpp"
 #include "steps/wind/deck_files.hpp"
@@ -209,22 +209,8 @@ std::set<std::string> vertical_channels(runner::StepContext& context, const reco
   return vertical;
 }
 
-class MeanSquares {
- public:
-  void add(const std::string& channel, const Eigen::Ref<const Eigen::VectorXd>& values) {
-    Sum& sum = sums_[channel];
-    sum.square += values.squaredNorm();
-    sum.samples += static_cast<double>(values.size());
-  }
-  void write(const std::string& event, buffeting::MeasuredRms& out) const {
-    for (const auto& [channel, sum] : sums_) out[{event, channel}] = std::sqrt(sum.square / sum.samples);
-  }
-
- private:
-  struct Sum {
-    double square = 0.0, samples = 0.0;
-  };
-  std::map<std::string, Sum> sums_;
+struct MeanSquare {
+  double sum = 0.0, samples = 0.0;
 };
 
 /// The campaign's folder; empty where there is none to read.
@@ -258,7 +244,7 @@ buffeting::MeasuredRms measured_rms(runner::StepContext& context, const Validati
   for (const buffeting::WindEvent& event : config.events) {
     if (event.condition.empty()) continue;
     records::RecordChoice choice{.setup = {}, .condition = event.condition, .kind = "wind"};
-    MeanSquares squares;
+    std::map<std::string, MeanSquare> squares;  // by channel
     for (const records::RecordGroup& group : records::record_groups(campaign, choice)) {
       for (const records::CampaignRecord& record : group.records) {
         context.record(record.file);
@@ -267,11 +253,15 @@ buffeting::MeasuredRms measured_rms(runner::StepContext& context, const Validati
         const Eigen::MatrixXd data = signal::detrended(recorded.values);
         if (!data.allFinite())
           throw InputError({record.file.string(), 0, ""}, "has gaps, which an RMS cannot have", "take a record without gaps");
-        for (std::size_t c = 0; c < record.channels.size(); ++c)
-          if (vertical.contains(record.channels[c])) squares.add(record.channels[c], data.col(static_cast<Eigen::Index>(c)));
+        for (std::size_t c = 0; c < record.channels.size(); ++c) {
+          if (!vertical.contains(record.channels[c])) continue;
+          MeanSquare& square = squares[record.channels[c]];
+          square.sum += data.col(static_cast<Index>(c)).squaredNorm();
+          square.samples += static_cast<double>(data.rows());
+        }
       }
     }
-    squares.write(event.name, out);
+    for (const auto& [channel, square] : squares) out[{event.name, channel}] = std::sqrt(square.sum / square.samples);
   }
   return out;
 }

@@ -8,8 +8,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/angle.hpp"
 #include "core/error.hpp"
+#include "core/units.hpp"
 
 namespace {
 

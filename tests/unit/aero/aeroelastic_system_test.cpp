@@ -6,8 +6,8 @@
 
 #include <cmath>
 
-#include "core/angle.hpp"
 #include "core/error.hpp"
+#include "core/units.hpp"
 #include "known_derivatives.hpp"
 #include "linear_polar.hpp"
 #include "unit/aero/static_forces.hpp"

@@ -6,7 +6,7 @@
 
 #include "aero/follow_mode.hpp"
 #include "aero/polar.hpp"
-#include "core/angle.hpp"
+#include "core/units.hpp"
 #include "known_derivatives.hpp"
 #include "linear_polar.hpp"
 #include "verification/wind_sections.hpp"

@@ -7,8 +7,8 @@
 #include <Eigen/Geometry>
 #include <cmath>
 
-#include "core/angle.hpp"
 #include "core/error.hpp"
+#include "core/units.hpp"
 
 namespace {
 

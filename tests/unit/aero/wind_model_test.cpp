@@ -6,8 +6,8 @@
 
 #include <cmath>
 
-#include "core/angle.hpp"
 #include "core/error.hpp"
+#include "core/units.hpp"
 #include "linalg/cholesky.hpp"
 #include "linear_polar.hpp"
 #include "unit/aero/beam_deck.hpp"

@@ -3,8 +3,8 @@
 
 #include <gtest/gtest.h>
 
-#include "core/angle.hpp"
 #include "core/error.hpp"
+#include "core/units.hpp"
 
 namespace {
 

@@ -7,8 +7,8 @@
 #include <cmath>
 #include <limits>
 
-#include "core/angle.hpp"
 #include "core/error.hpp"
+#include "core/units.hpp"
 
 namespace {
 

@@ -1,9 +1,11 @@
+#include "fe/bar.hpp"
+
 #include <gtest/gtest.h>
 
 #include <Eigen/Dense>
 
 #include "core/error.hpp"
-#include "fe/elements.hpp"
+#include "fe/beam.hpp"
 
 namespace twindeck::fe {
 namespace {

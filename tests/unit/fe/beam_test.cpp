@@ -1,10 +1,12 @@
+#include "fe/beam.hpp"
+
 #include <gtest/gtest.h>
 
 #include <Eigen/Dense>
 #include <cmath>
 
 #include "core/error.hpp"
-#include "fe/elements.hpp"
+#include "fe/bar.hpp"
 
 namespace twindeck::fe {
 namespace {

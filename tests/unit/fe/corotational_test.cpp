@@ -8,7 +8,8 @@
 #include <numbers>
 
 #include "assembly_models.hpp"
-#include "fe/elements.hpp"
+#include "fe/bar.hpp"
+#include "fe/beam.hpp"
 #include "fe/large_displacement.hpp"
 #include "fe/shell_triangle.hpp"
 #include "fe/solid.hpp"

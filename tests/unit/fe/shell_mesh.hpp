@@ -6,6 +6,8 @@
 #include <functional>
 #include <vector>
 
+#include "fe/beam.hpp"
+#include "fe/shell_quad.hpp"
 #include "fe/shell_triangle.hpp"
 
 /// Small meshes and dense algebra for tests of elements: assembly as in a textbook, apart from the product's own.

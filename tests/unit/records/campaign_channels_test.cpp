@@ -1,5 +1,5 @@
 // Which channel is the vertical acceleration at a point. Oracle: by definition; cos 5 degrees is 0.9962.
-#include "records/vertical_channel.hpp"
+#include "records/campaign_channels.hpp"
 
 #include <gtest/gtest.h>
 

@@ -6,7 +6,7 @@
 #include <string_view>
 
 /// Text in upper or lower case, for comparing words of files. Only ASCII letters change.
-namespace twindeck::io {
+namespace twindeck {
 
 /// The text without blanks at its ends.
 [[nodiscard]] inline std::string_view without_blanks(std::string_view text, std::string_view blanks = " \t\r\n") {
@@ -25,4 +25,4 @@ namespace twindeck::io {
   return text;
 }
 
-}  // namespace twindeck::io
+}  // namespace twindeck

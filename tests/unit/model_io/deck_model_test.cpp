@@ -1,5 +1,5 @@
 // Oracle: three masses as a deck lists them, two of which are equal.
-#include "model_io/equal_masses.hpp"
+#include "model_io/deck_model.hpp"
 
 #include <gtest/gtest.h>
 
