@@ -14,10 +14,6 @@ Wind WindSettings::wind() const {
 
 std::vector<std::string> WindSettings::deck_names() const { return each_of(decks, &DeckWind::name); }
 
-Equations WindSettings::equation_choice() const {
-  return equations == "as_printed" ? Equations::as_printed : Equations::consistent;
-}
-
 std::vector<Deployment> WindSettings::deployments() const {
   std::vector<Deployment> list;
   for (const std::string& name : models)

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "aero/aeroelastic_system.hpp"
+#include "aero/derivative_table.hpp"
 
 namespace twindeck::aero {
 
@@ -31,7 +32,7 @@ struct WindSettings {
   double attack_deg = 0.0;
   long nodes_per_deck = 30;
   std::vector<DeckWind> decks;
-  std::string below_range = "refuse", above_range = "refuse";
+  OutOfRange below_range = OutOfRange::refuse, above_range = OutOfRange::refuse;
   std::vector<std::string> sets = {"standin", "quasi_steady"};  ///< the first is the one whose level is reported as main
   std::string fit_model = "A";
   double fit_speed_m_s = 0.0;  ///< 0: level 1, nothing fitted
@@ -41,11 +42,10 @@ struct WindSettings {
   double structural_damping = 0.005, identified_damping = 0.011;
   long n_modes = 20, followed_modes = 10, damped_modes = 10;
   double max_speed_m_s = 60.0, speed_step_m_s = 1.0, design_speed_m_s = 40.4;
-  std::string equations = "consistent";
+  Equations equations = Equations::consistent;
 
   [[nodiscard]] Wind wind() const;
   [[nodiscard]] std::vector<std::string> deck_names() const;
-  [[nodiscard]] Equations equation_choice() const;
   /// The rules of `models`, then the hybrid deployment of Table 14 where its zones are given.
   [[nodiscard]] std::vector<Deployment> deployments() const;
 };

@@ -110,7 +110,7 @@ StaticResponse static_response(const WindSettings& config, const FittedSet& set,
     const Strip& strip = model.strips[i];
     const YawRule& rule = deployment.at(strip.deck, strip.yaw_rad);
     const Eigen::Vector3d force = aero::static_force(set.sections[static_cast<std::size_t>(strip.section)], strip, rule,
-                                                     config.density_kg_m3, config.design_speed_m_s, config.equation_choice());
+                                                     config.density_kg_m3, config.design_speed_m_s, config.equations);
     response.force.push_back(force);
     at_nodes.segment<6>(6 * static_cast<Eigen::Index>(i)) =
         aero::kinematics(strip, rule.axes, config.wind()).transpose() * force;

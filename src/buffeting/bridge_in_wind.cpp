@@ -19,7 +19,7 @@ namespace {
 /// Loads of a unit gust on each strip, v' and w', by rule A, over the free degrees of freedom. @return (n × 2 n_strips)
 MatrixXd gust_patterns(const BridgeInWind& bridge, const WindEventSettings& config) {
   const double intensity_ratio = 0.5;  // w' is about half as strong as v': patterns are weighed by their size
-  MatrixXd patterns = nodal_patterns(bridge, aero::everywhere(aero::published_yaw_rule("A")), 1.0, config.equation_choice(),
+  MatrixXd patterns = nodal_patterns(bridge, aero::everywhere(aero::published_yaw_rule("A")), 1.0, config.equations,
                                      {wind::Component::along, wind::Component::vertical});
   patterns.rightCols(std::ssize(bridge.model.strips)) *= intensity_ratio;
   return patterns;

@@ -14,7 +14,6 @@
 
 namespace twindeck::buffeting {
 
-using Eigen::Index;
 using Eigen::MatrixXd;
 
 namespace {
@@ -47,7 +46,7 @@ void add_spectral_values(RunResult& result, const BridgeInWind& bridge, const Wi
   const Eigen::VectorXd f = spectral_frequencies(config.cutoff_Hz);
   SpectralOptions options;
   options.lowest_omega = 2.0 * std::numbers::pi * kLowestDerivatives_Hz;
-  const auto points = static_cast<Index>(3 * bridge.sensors.points.size());  // of the monitoring points alone
+  const auto points = static_cast<Eigen::Index>(3 * bridge.sensors.points.size());  // of the monitoring points alone
   const auto rms = [&] {
     return buffeting::band_rms(
         f, buffeting::response_spectra(system, speed_m_s, load, fields, bridge.sensors.motion.topRows(points), f, options));
@@ -70,7 +69,7 @@ Start prepare(const BridgeInWind& bridge, const WindEventSettings& config, const
     const aero::AeroelasticSystem system = system_of(bridge, deployment_of(bridge.aerodynamics, run.model));
     RunResult result{event.name, run.name, run.model, {}, {}, {}, {}, stability(bridge, config, event, run, system)};
     if (result.status.converged) {
-      const MatrixXd load = buffeting::load_matrix(system, event.speed_m_s, config.equation_choice(), config.components());
+      const MatrixXd load = buffeting::load_matrix(system, event.speed_m_s, config.equations, config.components());
       result.rms.resize(bridge.sensors.motion.rows(), config.seeds);
       result.peak = result.rms;
       add_spectral_values(result, bridge, config, event.speed_m_s, system, load, fields);

@@ -90,7 +90,7 @@ std::vector<TimeCheck> check_time_integration(const BridgeInWind& bridge, const 
   std::vector<TimeCheck> checks;
   const WindEvent& event = checked.event;
   const aero::AeroelasticSystem system = system_of(bridge, deployment_of(bridge.aerodynamics, checked.run.model));
-  const MatrixXd load = buffeting::load_matrix(system, event.speed_m_s, config.equation_choice(), config.components());
+  const MatrixXd load = buffeting::load_matrix(system, event.speed_m_s, config.equations, config.components());
   const MatrixXd points = bridge.sensors.motion.topRows(3 * std::ssize(bridge.sensors.points));
 
   // The same waves sampled twice as often.
@@ -116,8 +116,7 @@ std::vector<TimeCheck> check_time_integration(const BridgeInWind& bridge, const 
   const std::vector<const fe::Spring*> dampers =
       config.dampers ? aero::dampers_of(*bridge.loaded.model) : std::vector<const fe::Spring*>();
 
-  const MatrixXd patterns =
-      nodal_patterns(bridge, system.deployment(), event.speed_m_s, config.equation_choice(), config.components());
+  const MatrixXd patterns = nodal_patterns(bridge, system.deployment(), event.speed_m_s, config.equations, config.components());
   // Rows of the monitoring points over the free degrees of freedom.
   MatrixXd observed(points.rows(), bridge.loaded.system.size());
   Index row = 0;

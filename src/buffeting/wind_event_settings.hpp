@@ -27,7 +27,7 @@ struct WindEventSettings {
   long seeds = 20, n_modes = 30, static_shapes = 8, point_shapes = 1, anchors = 40;
   double duration_s = 600.0, lead_in_s = 60.0, step_s = 1.0 / 64.0, cutoff_Hz = 8.0;
   double level = 0.95;
-  std::string equations = "consistent";
+  aero::Equations equations = aero::Equations::consistent;
   bool across = false;                 ///< u' loads the decks too
   std::string frequencies = "single";  ///< or "double_indexed"
   std::vector<WindEvent> events;
@@ -42,9 +42,6 @@ struct WindEventSettings {
     return list;
   }
   [[nodiscard]] bool repeats() const { return frequencies == "single"; }
-  [[nodiscard]] aero::Equations equation_choice() const {
-    return equations == "as_printed" ? aero::Equations::as_printed : aero::Equations::consistent;
-  }
 };
 
 }  // namespace twindeck::buffeting

@@ -277,7 +277,7 @@ void identify_condition(ConditionResult& result, const IdentificationSettings& c
   }
   std::vector<Identification*> found;
   for (SetupResult& setup : result.setups) found.push_back(&setup.found);
-  if (config.selection == "automatic") drop_lines_of_others(found, config.periodic);
+  if (config.selection == Selection::automatic) drop_lines_of_others(found, config.periodic);
   for (SetupResult& setup : result.setups) {
     if (setup.conditioned.has_responses()) continue;
     estimate_lags(setup.conditioned, setup.found);

@@ -25,23 +25,11 @@ double highest_of(const IdentificationSettings& config, double rate_Hz) {
 int derivative(const std::string& quantity) { return quantity == "acceleration" ? 2 : quantity == "velocity" ? 1 : 0; }
 
 IdentifyOptions IdentificationSettings::options(double rate_Hz, const std::vector<records::CampaignChannel>& channels) const {
-  IdentifyOptions options;
-  options.block_rows = block_rows;
-  options.minimum_order =
-      static_cast<int>(std::min(minimum_order, maximum_order));  // free decays and stays have other maximum orders
-  options.maximum_order = static_cast<int>(maximum_order);
-  options.order_step = static_cast<int>(order_step);
-  options.criteria = criteria;
+  IdentifyOptions options = *this;
+  options.minimum_order = std::min(minimum_order, maximum_order);  // free decays and stays have other maximum orders
   options.limits = {lowest_Hz, highest_of(*this, rate_Hz), largest_damping};
-  options.selection = selection == "paper" ? Selection::paper : Selection::automatic;
-  options.cleaning = cleaning;
-  options.automatic = automatic;
-  options.periodic = periodic;
   for (const records::CampaignChannel& channel : channels)
     options.automatic.derivatives.push_back(derivative(channel.quantity));
-  options.largest_deviation = largest_deviation;
-  options.largest_law_ratio = largest_law_ratio;
-  options.largest_shape_deviation = largest_shape_deviation;
   return options;
 }
 

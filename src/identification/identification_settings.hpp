@@ -28,22 +28,17 @@ struct ModeChoice {
 };
 
 /// How records are identified; the step's configuration has a sentence for each value.
-struct IdentificationSettings {
-  std::string setup, condition, kind = "ambient", method = "covariance", selection = "automatic", merge = "poser";
+struct IdentificationSettings : IdentifyOptions {
+  std::string setup, condition, kind = "ambient", method = "covariance", merge = "poser";
   std::vector<std::string> setups, references, exclude;
-  long decimation = 1, block_rows = 30, minimum_order = 2, maximum_order = 60, order_step = 2, blocks = 20, longest_gap = 0;
+  long decimation = 1, blocks = 20, longest_gap = 0;
   bool order_is_default = false;  ///< true: maximum_order was not configured and may be lowered to what the records allow
   long welch_segment = 2048;
   double largest_clipping = 1e-3;
   double largest_lone = 50.0;  ///< [-] robust deviations
   double lowest_Hz = 0.0;
   double highest_Hz = 0.0;  ///< 0: chosen, at most 0.8 of the Nyquist frequency after decimation
-  StabilisationCriteria criteria;
   double largest_damping = 0.20;
-  double largest_deviation = 0.01, largest_law_ratio = 10.0, largest_shape_deviation = 0.6;
-  CleaningRule cleaning;
-  AutomaticRule automatic;
-  PeriodicRule periodic;
   // Free decays (ERA).
   long decay_decimation = 0, decay_block_rows = 60, decay_maximum_order = 40;
   double decay_start_s = 0.3, decay_length_s = 20.0, decay_band_Hz = 0.08;

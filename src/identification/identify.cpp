@@ -263,7 +263,7 @@ void drop_lines_of_others(const std::vector<Identification*>& setups, const Peri
 
 std::vector<int> IdentifyOptions::orders() const {
   std::vector<int> list;
-  for (int order = minimum_order; order <= maximum_order; order += order_step) list.push_back(order);
+  for (long order = minimum_order; order <= maximum_order; order += order_step) list.push_back(static_cast<int>(order));
   TWINDECK_ASSERT(!list.empty());
   return list;
 }

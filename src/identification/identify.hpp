@@ -14,13 +14,13 @@
 namespace twindeck::identification {
 
 enum class Selection {
-  paper,     ///< Eqs. (3)-(4): identify_clusters
-  automatic  ///< automatic_clusters
+  automatic,  ///< automatic_clusters
+  paper       ///< Eqs. (3)-(4): identify_clusters
 };
 
 struct IdentifyOptions {
   Eigen::Index block_rows = 30;
-  int minimum_order = 2, maximum_order = 60, order_step = 2;
+  long minimum_order = 2, maximum_order = 60, order_step = 2;
   StabilisationCriteria criteria;
   PoleLimits limits;
   Selection selection = Selection::automatic;

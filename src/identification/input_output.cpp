@@ -82,7 +82,7 @@ Eigen::VectorXd replicate(const std::vector<Pole>& members, const std::vector<in
 }
 
 /// @throws InputError  if the record is too short for the block rows, or these too few for the orders
-void check_size(const Sizes& size, Index samples, int n_blocks, int maximum_order) {
+void check_size(const Sizes& size, Index samples, int n_blocks, long maximum_order) {
   // n samples have n - 2p + 1 columns: twice as many as the rows 2p of all channels, and more than 2p in each block.
   const Index carried = std::min((samples + 1) / (4 * size.all() + 2), (samples + 1 - n_blocks) / (2 * n_blocks + 2));
   if (size.block_rows > carried)

@@ -24,22 +24,6 @@ long samples_per_row_with_inputs(const Conditioned& conditioned) {
   return static_cast<long>(4 * (conditioned.channels.size() + conditioned.inputs.size()) + 2);
 }
 
-class Limits {
- public:
-  explicit Limits(const IdentificationSettings& config) : config_(config) {}
-  void lower(const char* name, long IdentificationSettings::*limit, long to) {
-    if (config_.*limit <= to) return;
-    changed_.push_back(fmt::format("{} {} -> {}", name, config_.*limit, to));
-    config_.*limit = to;
-  }
-  [[nodiscard]] const IdentificationSettings& config() const { return config_; }
-  [[nodiscard]] const std::vector<std::string>& changed() const { return changed_; }
-
- private:
-  IdentificationSettings config_;
-  std::vector<std::string> changed_;
-};
-
 }  // namespace
 
 CarriedLimits carried_by(const Conditioned& conditioned, const IdentificationSettings& config) {
@@ -53,27 +37,33 @@ CarriedLimits carried_by(const Conditioned& conditioned, const IdentificationSet
     throw UnusableRecord({conditioned.files.front(), 0, ""},
                          fmt::format("has {} samples after decimation, expected at least {}", n, least),
                          "give a longer record, or a smaller decimation");
-  Limits limits(config);
+  IdentificationSettings own = config;
+  std::vector<std::string> changed;
+  const auto lower = [&changed](const char* name, long& limit, long to) {
+    if (limit <= to) return;
+    changed.push_back(fmt::format("{} {} -> {}", name, limit, to));
+    limit = to;
+  };
   if (with_inputs) {
-    limits.lower("block_rows", &IdentificationSettings::block_rows, n / samples_per_row_with_inputs(conditioned));
+    lower("block_rows", own.block_rows, n / samples_per_row_with_inputs(conditioned));
   } else {
-    limits.lower("blocks", &IdentificationSettings::blocks, std::max(blocks, n / (kSamplesPerRow * config.block_rows)));
-    limits.lower("block_rows", &IdentificationSettings::block_rows, n / (kSamplesPerRow * limits.config().blocks));
+    lower("blocks", own.blocks, std::max(blocks, n / (kSamplesPerRow * config.block_rows)));
+    lower("block_rows", own.block_rows, n / (kSamplesPerRow * own.blocks));
   }
   // An order too large for the configured block rows is a mistake in the configuration, and is refused later. If the block rows
   // were lowered, or the order is the default, the order is lowered too.
-  if (limits.config().block_rows < config.block_rows || config.order_is_default) {
-    const auto rows = static_cast<Index>(limits.config().block_rows), outputs = static_cast<Index>(conditioned.channels.size());
+  if (own.block_rows < config.block_rows || config.order_is_default) {
+    const auto rows = static_cast<Index>(own.block_rows), outputs = static_cast<Index>(conditioned.channels.size());
     const auto references = static_cast<Index>(conditioned.references.size());
     const Index most = with_inputs ? (rows - 1) * outputs : std::min((rows - 1) * outputs, rows * references);
-    limits.lower("maximum_order", &IdentificationSettings::maximum_order, std::max<long>(2, static_cast<long>(most)));
-    limits.lower("minimum_order", &IdentificationSettings::minimum_order, limits.config().maximum_order);
+    lower("maximum_order", own.maximum_order, std::max<long>(2, static_cast<long>(most)));
+    lower("minimum_order", own.minimum_order, own.maximum_order);
   }
-  limits.lower("welch_segment", &IdentificationSettings::welch_segment, n);
-  if (limits.changed().empty()) return {limits.config(), ""};
-  return {limits.config(), fmt::format("setup {}: {} has {} samples, {} channels and {} references, too few for all limits: {}",
-                                       conditioned.setup, conditioned.files.front(), n, conditioned.channels.size(),
-                                       conditioned.references.size(), fmt::join(limits.changed(), ", "))};
+  lower("welch_segment", own.welch_segment, n);
+  if (changed.empty()) return {own, ""};
+  return {own, fmt::format("setup {}: {} has {} samples, {} channels and {} references, too few for all limits: {}",
+                           conditioned.setup, conditioned.files.front(), n, conditioned.channels.size(),
+                           conditioned.references.size(), fmt::join(changed, ", "))};
 }
 
 }  // namespace twindeck::identification

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <cstdint>
 #include <utility>
 
 #include "core/lists.hpp"
@@ -13,11 +14,10 @@
 namespace twindeck::io {
 namespace {
 
-using Fields = std::vector<std::shared_ptr<FieldTable::Field>>;
-
 /// Binds a key: keeps its default, refuses a key bound twice (a mistake of ours). @param read, write  none for an array of
 /// tables
-FieldTable::Field& bind_key(Fields& fields, const std::string& key, const std::string& type, const std::string& meaning,
+FieldTable::Field& bind_key(std::vector<std::shared_ptr<FieldTable::Field>>& fields, const std::string& key,
+                            const std::string& type, const std::string& meaning,
                             std::function<void(const TomlValue&, const Place&)> read, std::function<std::string()> write) {
   for (const auto& field : fields)
     if (field->key == key) throw InternalError("configuration key '" + key + "' is bound twice");
@@ -122,7 +122,8 @@ FieldTable& FieldTable::number(const std::string& key, double& target, const std
   return *this;
 }
 
-FieldTable& FieldTable::integer(const std::string& key, long& target, Range range, const std::string& meaning, bool required) {
+template <typename Whole>
+FieldTable& FieldTable::integer(const std::string& key, Whole& target, Range range, const std::string& meaning, bool required) {
   Field& field = bind_key(
       fields_, key, "whole number", meaning,
       [&target, range](const TomlValue& node, const Place& place) {
@@ -130,13 +131,16 @@ FieldTable& FieldTable::integer(const std::string& key, long& target, Range rang
         if (whole == nullptr)
           throw InputError(place, "is " + shown(node) + ", expected a whole number", "write it without point, quotes or unit");
         static_cast<void>(read_number(node, "", range, place));  // checks the range; a double does not hold every 64-bit number
-        target = *whole;
+        target = static_cast<Whole>(*whole);
       },
       [&target] { return std::to_string(target); });
   field.allowed = range_text(range);
   field.required = required;
   return *this;
 }
+template FieldTable& FieldTable::integer(const std::string&, int&, Range, const std::string&, bool);
+template FieldTable& FieldTable::integer(const std::string&, long&, Range, const std::string&, bool);
+template FieldTable& FieldTable::integer(const std::string&, std::uint64_t&, Range, const std::string&, bool);
 
 FieldTable& FieldTable::boolean(const std::string& key, bool& target, const std::string& meaning) {
   bind_key(
@@ -175,10 +179,17 @@ FieldTable& FieldTable::path_name(const std::string& key, std::string& target, c
 
 FieldTable& FieldTable::choice(const std::string& key, std::string& target, const std::vector<std::string>& allowed,
                                const std::string& meaning) {
+  return choice(
+      key, [&target](const std::string& word) { target = word; }, [&target] { return target; }, allowed, meaning);
+}
+
+FieldTable& FieldTable::choice(const std::string& key, std::function<void(const std::string&)> read,
+                               std::function<std::string()> write, const std::vector<std::string>& allowed,
+                               const std::string& meaning) {
   Field& field = bind_key(
       fields_, key, "text", meaning,
-      [&target, allowed](const TomlValue& node, const Place& place) { target = read_choice(node, allowed, place); },
-      [&target] { return toml_text(target); });
+      [read, allowed](const TomlValue& node, const Place& place) { read(read_choice(node, allowed, place)); },
+      [write] { return toml_text(write()); });
   field.allowed = fmt::format("one of {}", fmt::join(allowed, ", "));
   field.takes_text = true;
   return *this;

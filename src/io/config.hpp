@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <filesystem>
 #include <functional>
 #include <limits>
@@ -23,6 +24,14 @@ struct Range {
 [[nodiscard]] inline Range positive() { return {0.0, std::numeric_limits<double>::infinity(), true}; }
 [[nodiscard]] inline Range non_negative() { return {0.0, std::numeric_limits<double>::infinity(), false}; }
 
+// Limits of values in a configuration. A larger value is a typing or unit error (milliseconds for seconds) that would fill the
+// memory or run without end.
+constexpr double longest_record_s = 86400.0;  ///< [s] a day: ten times the longest ambient record that is usual
+constexpr double highest_rate_Hz = 1e4;       ///< [Hz] hundred times what loggers of structures sample at
+constexpr double lowest_rate_Hz =
+    1e-3;  ///< [Hz] about one sample in a quarter of an hour, far slower than any structure vibrates
+constexpr double highest_wind_m_s = 200.0;  ///< [m/s] the fastest gust measured at the ground was 113 m/s (WMO, 1996)
+
 /// The only description of a configuration struct. Each key is bound to a member, with unit, range, default (the member's value
 /// when it is bound) and a sentence. TOML files, `--set`, `--print-config`, `--describe` and the reference page all use it.
 ///
@@ -39,7 +48,9 @@ class FieldTable {
   FieldTable();
   FieldTable& number(const std::string& key, double& target, const std::string& unit, Range range, const std::string& meaning,
                      bool required = false);
-  FieldTable& integer(const std::string& key, long& target, Range range, const std::string& meaning, bool required = false);
+  /// @tparam Whole  int, long or std::uint64_t; the range must lie in it
+  template <typename Whole>
+  FieldTable& integer(const std::string& key, Whole& target, Range range, const std::string& meaning, bool required = false);
   FieldTable& boolean(const std::string& key, bool& target, const std::string& meaning);
   FieldTable& text(const std::string& key, std::string& target, const std::string& meaning, bool required = false);
   /// A name that becomes part of a path below the step's folder (io/path_name.hpp). @param what  "condition", for the message
@@ -48,6 +59,16 @@ class FieldTable {
   /// A text that must be one of `allowed`.
   FieldTable& choice(const std::string& key, std::string& target, const std::vector<std::string>& allowed,
                      const std::string& meaning);
+  /// A value of an enumeration. @param words  of its values, in their order
+  template <typename Enum>
+  FieldTable& choice(const std::string& key, Enum& target, const std::vector<std::string>& words, const std::string& meaning) {
+    return choice(
+        key,
+        [&target, words](const std::string& word) {
+          target = static_cast<Enum>(std::ranges::find(words, word) - words.begin());
+        },
+        [&target, words] { return words.at(static_cast<std::size_t>(target)); }, words, meaning);
+  }
   FieldTable& numbers(const std::string& key, std::vector<double>& target, const std::string& unit, Range range,
                       const std::string& meaning);
   FieldTable& texts(const std::string& key, std::vector<std::string>& target, const std::string& meaning);
@@ -94,6 +115,8 @@ class FieldTable {
 
  private:
   friend struct FieldAccess;
+  FieldTable& choice(const std::string& key, std::function<void(const std::string&)> read, std::function<std::string()> write,
+                     const std::vector<std::string>& allowed, const std::string& meaning);
   [[nodiscard]] std::vector<std::string> lines(const std::string& above = "") const;
 
   std::vector<std::shared_ptr<Field>> fields_;

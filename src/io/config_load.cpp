@@ -8,7 +8,6 @@
 #include "io/config_field.hpp"
 
 namespace twindeck::io {
-namespace fs = std::filesystem;
 
 /// Lets the reader below reach the inside of the table that a caller's `add` returned.
 struct FieldAccess {
@@ -17,8 +16,6 @@ struct FieldAccess {
 };
 
 namespace {
-
-using Fields = std::vector<std::shared_ptr<FieldTable::Field>>;
 
 std::string last_part(const std::string& key) { return key.substr(key.rfind('.') + 1); }  // npos + 1 is 0
 
@@ -40,7 +37,7 @@ std::string meant_by(const std::string& key, const std::vector<std::string>& kno
 
 /// The fields of one table of TOML (the file's, or one element's of an array of tables), with what messages need.
 struct Reader {
-  const Fields& fields;
+  const std::vector<std::shared_ptr<FieldTable::Field>>& fields;
   std::string file;
   std::string above;  ///< "damper[2]." inside an array of tables
   std::vector<FieldTable::Broken> retired = {};
@@ -152,7 +149,7 @@ void refuse_unknown_key(const std::string& file, long line, const std::string& a
   throw InputError({file, line, ""}, "unknown key '" + above + key + "'", mend);
 }
 
-void FieldTable::load(const fs::path& file) {
+void FieldTable::load(const std::filesystem::path& file) {
   const Reader reader{fields_, file.string(), "", retired_};
   reader.table(read_toml(file), "");
   reader.require(0);

@@ -23,7 +23,7 @@ namespace {
 
 /// [[parameter]] as it stands in the file.
 struct ElementParameter : ParameterEntry {
-  std::string target = "youngs_modulus";
+  fe::Target target = fe::Target::youngs_modulus;
   std::vector<std::string> of;
 
   io::FieldTable fields() {
@@ -40,7 +40,7 @@ struct ElementParameter : ParameterEntry {
 struct MatrixElementEntry {
   std::string name, group, stiffness, damping, mass;  ///< the last three are files, relative to the model folder; "" = none
   std::vector<std::string> dofs;                      ///< "node:direction"
-  long internal = 0;
+  int internal = 0;
 
   io::FieldTable fields() {
     io::FieldTable table;
@@ -55,24 +55,19 @@ struct MatrixElementEntry {
   }
 };
 
-/// Everything of model.toml in the words of the file.
+/// What model.toml says in words of its own; the rest goes into the model at once.
 struct ModelEntry {
-  std::string title;
-  double gravity_m_s2 = fe::Model{}.gravity_m_s2;
   std::vector<double> gravity_direction = {0.0, 0.0, -1.0};
-  fe::Formulation formulation;
-  std::string drilling = "penalty", rule = "none";
-  fe::Prestress prestress;
   std::vector<std::string> conditions;
-  std::string displacements = "linear";
-  long load_steps = 1;
   std::deque<MatrixElementEntry> matrix_elements;
   std::deque<ElementParameter> parameters;  // a deque: the field tables keep references while it grows
 
-  io::FieldTable fields() {
+  io::FieldTable fields(fe::Model& model) {
+    fe::Formulation& formulation = model.formulation;
+    fe::Prestress& prestress = model.prestress;
     io::FieldTable table;
-    table.text("title", title, "what the model is")
-        .number("gravity", gravity_m_s2, "m/s2", io::non_negative(), "acceleration of gravity")
+    table.text("title", model.title, "what the model is")
+        .number("gravity", model.gravity_m_s2, "m/s2", io::non_negative(), "acceleration of gravity")
         .numbers("gravity_direction", gravity_direction, "", {-1.0, 1.0}, "unit vector along which things fall")
         .rule([this]() -> std::optional<io::FieldTable::Broken> {
           if (gravity_direction.size() == 3) return std::nullopt;
@@ -84,23 +79,24 @@ struct ModelEntry {
                  "false: beams without rotary inertia of bending")
         .boolean("formulation.shell_rotary_inertia", formulation.shell_rotary_inertia,
                  "false: shells with translational mass only")
-        .choice("formulation.drilling", drilling, {"penalty", "diagonal"}, "stiffness of shell rotations about the normal")
+        .choice("formulation.drilling", formulation.drilling, {"penalty", "diagonal"},
+                "stiffness of shell rotations about the normal")
         .number("formulation.drilling_factor", formulation.drilling_factor, "", io::non_negative(),
                 "0: the formulation's default")
         .boolean("formulation.lumped_mass", formulation.lumped_mass, "true: masses at the nodes; false: consistent")
-        .choice("prestress.rule", rule, pull_rule_names(), "where the pulls of the stays come from")
+        .choice("prestress.rule", prestress.rule, pull_rule_names(), "where the pulls of the stays come from")
         .boolean("prestress.geometric_stiffness", prestress.geometric_stiffness, "axial forces stiffen stays and members")
         .number("prestress.minimum_pull", prestress.minimum_pull_N, "N", io::non_negative(), "no stay goes slack below it")
         .number("prestress.ridge", prestress.ridge, "", io::non_negative(), "weight of least pulls against zero displacement")
         .number("prestress.site_weight", prestress.site_weight, "", io::non_negative(),
                 "weight of the pulls of elements.csv against zero displacement")
-        .choice("prestress.displacements", displacements, {"linear", "large"},
+        .choice("prestress.displacements", prestress.displacements, {"linear", "large"},
                 "equilibrium under dead load and pulls: in the geometry of nodes.csv, or in the deformed one")
         .boolean("prestress.shells_and_solids", prestress.shells_and_solids,
                  "the stresses of shells and solids stiffen and soften too")
         .text("prestress.load", prestress.load_case,
               "load case of loads.csv that acts beside dead load and pulls: forces, moments, movements of supports")
-        .integer("prestress.load_steps", load_steps, {1.0, 1000.0},
+        .integer("prestress.load_steps", prestress.load_steps, {1.0, 1000.0},
                  "large displacements: dead load and pulls grow in so many equal steps")
         .texts("prestress.conditions", conditions, "displacements that the pulls should bring to zero: \"node:direction\"")
         .tables(
@@ -122,7 +118,7 @@ fe::Parameter to_parameter(const std::filesystem::path& file, const fe::Model& m
     return parameter_error(file, entry.name, problem, mend);
   };
   fe::Parameter p = entry.parameter(file);
-  p.target = static_cast<fe::Target>(position_of(entry.target, target_names()));
+  p.target = entry.target;
   p.of = entry.of;
   if (p.of.empty())
     throw refuse("'of' is missing or empty", fmt::format("name the {} that it applies to", fe::kind_of(p.target)));
@@ -179,7 +175,7 @@ fe::MatrixElement to_matrix_element(const std::filesystem::path& folder, const N
   };
   element.name = entry.name;
   element.group = entry.group;
-  element.internal = static_cast<int>(entry.internal);
+  element.internal = entry.internal;
   for (const std::string& text : entry.dofs) {
     const auto [node, direction] = index.displacement(text);
     if (node < 0 || direction < 0)
@@ -236,35 +232,25 @@ std::string write_matrix_elements(const fe::Model& model, const std::filesystem:
 
 }  // namespace
 
-std::string describe_model_toml() { return ModelEntry{}.fields().describe(); }
+std::string describe_model_toml() {
+  fe::Model model;
+  return ModelEntry{}.fields(model).describe();
+}
 
 void read_model_toml(const std::filesystem::path& file, fe::Model& model,
                      const std::function<void(io::FieldTable&)>& add_keys) {
   NameIndex index;
   for (std::size_t i = 0; i < model.nodes.size(); ++i) index.nodes.emplace(model.nodes[i].id, static_cast<int>(i));
   ModelEntry entry;
-  entry.title = model.title;
-  entry.formulation = model.formulation;
-  entry.gravity_m_s2 = model.gravity_m_s2;
   for (std::size_t i = 0; i < 3; ++i) entry.gravity_direction[i] = model.gravity_direction[static_cast<int>(i)];
-  entry.prestress = model.prestress;
-  entry.rule = pull_rule_names()[static_cast<std::size_t>(model.prestress.rule)];
-  entry.displacements = model.prestress.displacements == fe::Displacements::large ? "large" : "linear";
-  io::FieldTable table = entry.fields();
+  model.prestress.load_steps = 1;                          // unless the file says otherwise, whatever a deck has
+  const std::string own_case = model.prestress.load_case;  // of a deck, whose loads are read already
+  io::FieldTable table = entry.fields(model);
   if (add_keys) add_keys(table);
   table.load(file);
-  model.title = entry.title;
-  model.gravity_m_s2 = entry.gravity_m_s2;
   for (std::size_t i = 0; i < 3; ++i) model.gravity_direction[static_cast<int>(i)] = entry.gravity_direction[i];
-  model.formulation = entry.formulation;
-  model.formulation.drilling =
-      entry.drilling == "penalty" ? fe::Formulation::Drilling::penalty : fe::Formulation::Drilling::diagonal;
-  const std::string own_case = model.prestress.load_case;  // of a deck, whose loads are read already
-  model.prestress = entry.prestress;
-  if (entry.prestress.load_case != own_case) model.prestress.loads = loads_of_case(file, index, entry.prestress.load_case);
-  model.prestress.rule = static_cast<fe::PullRule>(position_of(entry.rule, pull_rule_names()));
-  model.prestress.displacements = entry.displacements == "large" ? fe::Displacements::large : fe::Displacements::linear;
-  model.prestress.load_steps = static_cast<int>(entry.load_steps);
+  if (const std::string& load = model.prestress.load_case; load != own_case)
+    model.prestress.loads = loads_of_case(file, index, load);
   for (const auto& element : entry.matrix_elements)
     model.matrix_elements.push_back(to_matrix_element(file.parent_path(), index, element));
   for (const auto& text : entry.conditions) model.prestress.conditions.push_back(to_condition(file, index, text));

@@ -13,7 +13,6 @@
 #include "core/error.hpp"
 #include "core/lists.hpp"
 #include "io/config.hpp"
-#include "io/limits.hpp"
 #include "io/regular_file.hpp"
 #include "io/toml_value.hpp"
 #include "records/column_match.hpp"

@@ -69,7 +69,7 @@ std::vector<buffeting::SystemSlope> system_slopes(const AtMedians& at, double sp
   const aero::AeroelasticSystem::Block high = above.self_excited(speed_m_s, omega), low = below.self_excited(speed_m_s, omega);
   const double per_log = 0.5 / kLevelStep;
   const auto loads = [&](const aero::AeroelasticSystem& of) {
-    return buffeting::load_matrix(of, speed_m_s, settings->equation_choice(), settings->components());
+    return buffeting::load_matrix(of, speed_m_s, settings->equations, settings->components());
   };
   MatrixXd load;
   if (settings != nullptr) load = per_log * (loads(above) - loads(below));
@@ -218,8 +218,7 @@ UncertainMoments uncertain_moments(
     return out;
   }
 
-  const MatrixXd load =
-      buffeting::load_matrix(system, speed_m_s, response.settings.equation_choice(), response.settings.components());
+  const MatrixXd load = buffeting::load_matrix(system, speed_m_s, response.settings.equations, response.settings.components());
   std::vector<wind::FieldDefinition> fields =
       buffeting::fields_at_nodes(response.bridge, response.turbulence, response.settings, speed_m_s);
   for (wind::FieldDefinition& field : fields) field.sigma_m_s *= at.variation.turbulence_factor;

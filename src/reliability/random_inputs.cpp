@@ -4,7 +4,6 @@
 
 #include <Eigen/Cholesky>
 #include <algorithm>
-#include <array>
 #include <boost/math/distributions/extreme_value.hpp>
 #include <boost/math/distributions/weibull.hpp>
 #include <boost/math/special_functions/gamma.hpp>
@@ -23,8 +22,6 @@ using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
 namespace {
-
-constexpr std::array<const char*, 5> kLaws = {"normal", "lognormal", "uniform", "gumbel", "weibull"};
 
 /// Two parameters of a law from its mean and deviation: location and scale, scale and shape, or the two ends.
 struct Parameters {
@@ -144,12 +141,7 @@ void check(const RandomInput& input) {
 
 }  // namespace
 
-std::optional<LawKind> law_kind(const std::string& name) {
-  const auto at = std::ranges::find(kLaws, name);
-  return at == kLaws.end() ? std::nullopt : std::optional(static_cast<LawKind>(at - kLaws.begin()));
-}
-
-std::string law_name(LawKind kind) { return kLaws.at(static_cast<std::size_t>(kind)); }
+std::string law_name(LawKind kind) { return law_names.at(static_cast<std::size_t>(kind)); }
 
 RandomVector::RandomVector(std::vector<RandomInput> inputs, const MatrixXd& correlation) : inputs_(std::move(inputs)) {
   for (std::size_t i = 0; i < inputs_.size(); ++i) {

@@ -13,7 +13,8 @@ namespace twindeck::reliability {
 
 /// Law of one random input, cut to [low, high] where these are given.
 enum class LawKind { normal, lognormal, uniform, gumbel, weibull };
-[[nodiscard]] std::optional<LawKind> law_kind(const std::string& name);
+/// In the order of LawKind.
+inline const std::vector<std::string> law_names = {"normal", "lognormal", "uniform", "gumbel", "weibull"};
 [[nodiscard]] std::string law_name(LawKind kind);
 
 struct RandomInput {

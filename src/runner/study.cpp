@@ -13,13 +13,12 @@ namespace {
 /// study.toml in the words of the file.
 struct StudyFile {
   Study study;
-  long seed = static_cast<long>(Study{}.seed);
   std::string file, model_folder, inp, features;
 
   io::FieldTable fields() {
     io::FieldTable table;
     table.text("title", study.title, "one line that names the study in reports", true)
-        .integer("seed", seed, io::non_negative(), "seed of everything random in the study")
+        .integer("seed", study.seed, io::non_negative(), "seed of everything random in the study")
         .choice("measured", study.measured, {"published", "virtual"}, "where the measured modes come from")
         .text("features", features, "folder of measured features: rows.csv, conditions.toml, channels.csv")
         .texts("steps", study.steps, "tokens of the steps in the order in which they run")
@@ -53,14 +52,13 @@ Study read_study(const std::filesystem::path& folder) {
   const std::filesystem::path path = folder / "study.toml";
   entry.fields().load(path);
   check_steps(entry.study.steps, path);
-  auto& [study, seed, file, model_folder, inp, features] = entry;
+  auto& [study, file, model_folder, inp, features] = entry;
   const bool generated = !study.model_generator.empty() || !file.empty();
   const int sources = (generated ? 1 : 0) + (model_folder.empty() ? 0 : 1) + (inp.empty() ? 0 : 1);
   if (sources > 1)
     throw InputError({path.string(), 0, "model"}, "names more than one of generator, folder and inp", "keep one of them");
   if (generated && (study.model_generator.empty() || file.empty()))
     throw InputError({path.string(), 0, "model"}, "names only one of generator and file", "give both");
-  study.seed = static_cast<std::uint64_t>(seed);
   study.model_file = file;
   study.model_folder = model_folder;
   study.model_inp = inp;

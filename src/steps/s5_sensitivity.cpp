@@ -19,12 +19,11 @@ Status run(const steps::SensitivityConfig& config, const dynamics::ReadModel& re
   if (!loaded.state.status.converged) return loaded.state.status;
 
   // 2. Sensitivities three ways: exact, by extrapolated central differences, by Eq. (6).
-  sensitivity::SensitivityOptions options{.n_modes = static_cast<int>(config.n_modes), .forward_step = config.forward_step};
   const sensitivity::Sensitivities found = sensitivity::frequency_sensitivities(
-      loaded.system, loaded.theta, options, [&](int done, int of) { context.progress("differences", done, of); });
+      loaded.system, loaded.theta, config, [&](int done, int of) { context.progress("differences", done, of); });
   if (found.frequency_Hz.size() == 0) return found.status;
   if (measured) {
-    const auto modes = dynamics::available_modes(loaded.system, loaded.theta, options.n_modes);
+    const auto modes = dynamics::available_modes(loaded.system, loaded.theta, config.n_modes);
     dynamics::judge_units(context, loaded, modes.frequency_Hz, steps::frequencies_of(measured, {}, loaded, modes));
   } else {
     dynamics::warn_of_unit_slips(context, loaded, found.frequency_Hz, {});

@@ -19,7 +19,7 @@ Status run(const steps::UpdatingConfig& asked, const steps::UpdatingInputs& read
   const steps::UpdatingConfig config = asked.for_band_of(measured, before);
 
   // 2. Pairs of measured and computed modes.
-  const auto modes_before = dynamics::available_modes(before.system, before.theta, static_cast<int>(config.n_modes));
+  const auto modes_before = dynamics::available_modes(before.system, before.theta, config.n_modes);
   if (!modes_before.status.converged) return modes_before.status;
   judge_units(context, before, modes_before.frequency_Hz, steps::frequencies_of(measured, config, before, modes_before));
   const auto pairing = updating::pair_for_updating(context, config, before, modes_before, measured);
@@ -40,7 +40,7 @@ Status run(const steps::UpdatingConfig& asked, const steps::UpdatingInputs& read
 
   // 4. The updated model, in balance, with its modes and the same pairs.
   const dynamics::LoadedModel after = dynamics::with_values(before, result.theta);
-  const auto modes_after = dynamics::available_modes(after.system, after.theta, static_cast<int>(config.n_modes));
+  const auto modes_after = dynamics::available_modes(after.system, after.theta, config.n_modes);
   const matching::Pairing followed = updating::followed_pairing(config, pairing, result, after, modes_after, measured);
   const matching::PairingAccount account = updating::account_after(context, followed, modes_after, measured);
   std::vector<matching::ComparisonRow> comparison = matching::compare("before", measured, modes_before.frequency_Hz, pairing);

@@ -12,7 +12,6 @@
 #include "core/parallel.hpp"
 #include "fe/assembly_parameters.hpp"
 #include "io/csv.hpp"
-#include "io/limits.hpp"
 #include "io/npy.hpp"
 #include "model_io/write_model.hpp"
 #include "ponte/virtual_bridge/simulated_records.hpp"
@@ -28,11 +27,6 @@ namespace twindeck::steps {
 
 namespace {
 
-namespace fs = std::filesystem;
-using Eigen::Index;
-using Eigen::MatrixXd;
-using Eigen::VectorXd;
-
 constexpr double kHighestTruth_Hz = 3.0;
 
 Status write_calibration(const ponte::VirtualBridge& bridge, const ponte::CampaignSettings& settings,
@@ -40,7 +34,7 @@ Status write_calibration(const ponte::VirtualBridge& bridge, const ponte::Campai
   const ponte::BridgeTuning found = tune(bridge, settings, context);
   io::CsvWriter csv({"parameter", "factor"});
   for (std::size_t i = 0; i < bridge.undivided.parameters.size(); ++i) {
-    const auto at = static_cast<Index>(i);
+    const auto at = static_cast<Eigen::Index>(i);
     csv.row({bridge.undivided.parameters[i].name, fmt::format("{:.6f}", found.theta[at] / bridge.uncorrected[at])});
   }
   csv.save(context.out / "corrections.csv");
@@ -48,8 +42,8 @@ Status write_calibration(const ponte::VirtualBridge& bridge, const ponte::Campai
 }
 
 struct Simulated {
-  MatrixXd damper_force_N;
-  VectorXd rms_displacement_m;
+  Eigen::MatrixXd damper_force_N;
+  Eigen::VectorXd rms_displacement_m;
 };
 
 struct CampaignInputs {
@@ -57,7 +51,7 @@ struct CampaignInputs {
   std::vector<sensors::LayoutPoint> points;
   std::vector<sensors::LayoutChannel> layout;
   std::vector<RecordFile> files;
-  VectorXd theta;                          ///< corrected parameters
+  Eigen::VectorXd theta;                   ///< corrected parameters
   std::optional<ponte::VirtualWind> wind;  ///< set if a record is of a wind event
 };
 
@@ -147,7 +141,7 @@ std::map<std::string, Amplitude> write_truth(const runner::StepContext& context,
     const std::optional<std::size_t> longest = longest_record(settings, condition.name);
     if (!longest) continue;
     const ponte::ConditionModel& model = model_of(models, settings, condition.name);
-    const MatrixXd& force = simulated[*longest].damper_force_N;
+    const Eigen::MatrixXd& force = simulated[*longest].damper_force_N;
     truth.add(condition.name, settings, model, ponte::true_modes(model, settings, force, kHighestTruth_Hz), read.layout, force);
     const auto channels = sensors::channels_of(read.layout, settings.records[*longest].setup);
     amplitudes[condition.name] = {channels.front().channel, simulated[*longest].rms_displacement_m[0]};
@@ -225,8 +219,8 @@ runner::Computation read_test_campaign(runner::StepContext& context, const ponte
     read.points = read_points(context.input(settings.points));
     read.layout = read_setups(context.input(settings.setups), read.points);
     read.files = record_files(settings, read.layout);
-    read.theta = ponte::corrected_parameters(read.bridge,
-                                             settings.corrections.empty() ? fs::path() : context.input(settings.corrections));
+    read.theta = ponte::corrected_parameters(
+        read.bridge, settings.corrections.empty() ? std::filesystem::path() : context.input(settings.corrections));
     refuse_unknown_names(settings, read);
     for (const ponte::RecordSettings& record : settings.records)
       if (record.kind == "wind" && !read.wind) read.wind = read_virtual_wind(context, settings);

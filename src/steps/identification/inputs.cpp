@@ -6,7 +6,6 @@
 #include "core/error.hpp"
 #include "identification/stays.hpp"
 #include "io/csv.hpp"
-#include "io/limits.hpp"
 #include "model_io/modes_io.hpp"
 #include "records/universal_modes.hpp"
 #include "steps/shared/config_parts.hpp"

@@ -9,7 +9,6 @@
 #include "buffeting/bridge_in_wind.hpp"
 #include "core/error.hpp"
 #include "io/csv.hpp"
-#include "io/limits.hpp"
 #include "reliability/bridge_reliability.hpp"
 #include "steps/measured/measured_input.hpp"
 #include "steps/shared/config_parts.hpp"
@@ -44,7 +43,7 @@ void add_comfort(io::FieldTable& t, StatedComfort& limit) {
 void add_random(io::FieldTable& t, StatedInput& input) {
   t.text("name", input.name,
          "parameter of the model as \"parameter:NAME\", or one of the four inputs above by its name in random.csv", true)
-      .choice("law", input.law, {"normal", "lognormal", "uniform", "gumbel", "weibull"}, "probability law of the input")
+      .choice("law", input.kind, reliability::law_names, "probability law of the input")
       .number("mean", input.mean, "", {-1e300, 1e300}, "mean, in the input's own unit", true)
       .number("deviation", input.deviation, "", {-1e300, 1e300}, "standard deviation, in the same unit; 0 keeps it fixed", true)
       .boolean("bounded", input.bounded, "whether the law is truncated to the range from low to high")
@@ -128,7 +127,6 @@ reliability::RandomInput scattered(const std::string& name, double mean, double 
 
 reliability::RandomInput stated(const StatedInput& input) {
   reliability::RandomInput out = input;
-  out.kind = *reliability::law_kind(input.law);
   if (input.bounded) {
     out.low = input.low_value;
     out.high = input.high_value;

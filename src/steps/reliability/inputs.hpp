@@ -20,7 +20,6 @@ namespace twindeck::steps {
 
 /// A random input as the configuration states it.
 struct StatedInput : reliability::RandomInput {
-  std::string law = "normal";
   double low_value = 0.0, high_value = 0.0;  ///< where `bounded` says that the law is cut
   bool bounded = false;
   StatedInput() { label = "user"; }

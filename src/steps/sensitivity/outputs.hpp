@@ -12,11 +12,9 @@
 namespace twindeck::steps {
 
 /// Configuration of s5_sensitivity.
-struct SensitivityConfig {
-  long n_modes = 15;
+struct SensitivityConfig : sensitivity::SensitivityOptions {
   std::string compared_modes_from = "list";  ///< "list" | "s4_refinement"
   std::vector<double> compared_modes;        ///< numbers from 1; empty: all n_modes
-  double forward_step = 0.01;
   double frequency_std_pct = 0.5;
   double selection_threshold = 1.0;
   double singular_value_cutoff = 1.0;

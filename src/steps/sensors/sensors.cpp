@@ -10,7 +10,6 @@
 #include "dynamics/eigenmodes.hpp"
 #include "dynamics/model_check.hpp"
 #include "io/csv.hpp"
-#include "io/limits.hpp"
 #include "sensors/blind_test.hpp"
 #include "sensors/setup_scores.hpp"
 #include "steps/layout/layout_files.hpp"
@@ -21,7 +20,6 @@ namespace twindeck::steps {
 namespace fs = std::filesystem;
 using Eigen::Index;
 using Eigen::MatrixXd;
-using Eigen::VectorXd;
 
 io::FieldTable SensorsConfig::fields() {
   io::FieldTable table;
@@ -99,7 +97,7 @@ void write_auto_mac(const std::vector<sensors::ScoredSetup>& setups, const Matri
 /// Writes the blind test. The partner of a true mode is an identified mode within 5 % in frequency that no other mode has. Of
 /// several it is the one with the highest MAC, reduced by 0.01 for each 10 % of frequency difference.
 void write_blind_test(const SensorsConfig& config, const sensors::BlindTestResult& result,
-                      const std::vector<sensors::ScoredSetup>& setups, const VectorXd& frequency_Hz, const MatrixXd& phi,
+                      const std::vector<sensors::ScoredSetup>& setups, const Eigen::VectorXd& frequency_Hz, const MatrixXd& phi,
                       const fs::path& folder) {
   io::CsvWriter csv({"setup", "mode", "frequency_Hz", "damping_ratio_pct", "found", "identified_frequency_Hz",
                      "identified_damping_ratio_pct", "frequency_error_pct", "damping_ratio_error_pct", "mac", "recursion"});
@@ -111,7 +109,7 @@ void write_blind_test(const SensorsConfig& config, const sensors::BlindTestResul
     const sensors::ScoredSetup& setup = *std::ranges::find(setups, test.setup, &sensors::ScoredSetup::name);
     std::vector<bool> taken(test.modes.size(), false);
     for (Index m = 0; m < frequency_Hz.size(); ++m) {
-      const VectorXd shape = phi(setup.rows, m);
+      const Eigen::VectorXd shape = phi(setup.rows, m);
       const auto mac = [&](std::size_t k) {
         const Eigen::VectorXcd& found = test.modes[k].shape;
         return std::norm(found.dot(shape.cast<std::complex<double>>())) / (found.squaredNorm() * shape.squaredNorm());

@@ -136,8 +136,8 @@ UpdatingInputs read_updating(const UpdatingConfig& config, runner::StepContext& 
 UpdatingConfig UpdatingConfig::for_band_of(const matching::Measured& measured, const dynamics::LoadedModel& model) const {
   UpdatingConfig out = *this;
   if (measured.modes.has_shapes())
-    out.n_modes = dynamics::modes_for_band(model.system, model.theta, static_cast<int>(n_modes), measured.modes.frequency_Hz,
-                                           maximum_frequency_error);
+    out.n_modes =
+        dynamics::modes_for_band(model.system, model.theta, n_modes, measured.modes.frequency_Hz, maximum_frequency_error);
   return out;
 }
 

@@ -4,7 +4,6 @@
 
 #include "core/error.hpp"
 #include "core/lists.hpp"
-#include "io/limits.hpp"
 #include "steps/shared/config_parts.hpp"
 
 namespace twindeck::steps {

@@ -21,8 +21,6 @@ namespace twindeck::steps {
 
 namespace {
 
-aero::OutOfRange choice(const std::string& word) { return word == "hold" ? aero::OutOfRange::hold : aero::OutOfRange::refuse; }
-
 // Laws that the data of a deck may break, as its configuration states them: {law: reason}.
 std::map<std::string, std::string> exceptions_of(const aero::DeckWind& deck) {
   constexpr int least_words = 3;  // a reason has three words or more
@@ -68,7 +66,7 @@ std::vector<aero::DeckAerodynamics> read_deck_aerodynamics(const aero::WindSetti
                        "give its flutter, or write sets = [\"quasi_steady\"] in step 7 and set = \"quasi_steady\" in step 8");
     if (!deck.flutter.empty())
       data.back().flutter = std::make_shared<aero::DerivativeTable>(
-          aero::read_flutter_derivatives(context.input(deck.flutter), choice(config.below_range), choice(config.above_range)));
+          aero::read_flutter_derivatives(context.input(deck.flutter), config.below_range, config.above_range));
     check_laws(deck, data.back());
   }
   return data;

@@ -4,7 +4,6 @@
 
 #include <optional>
 
-#include "io/limits.hpp"
 #include "steps/shared/config_parts.hpp"
 
 namespace twindeck::steps {

@@ -22,15 +22,13 @@ TEST(WindSettings, DirectionIsAnticlockwiseFromX) {
   EXPECT_LT((settings.wind().direction - Eigen::Vector3d(std::sqrt(3.0) / 2, -0.5, 0)).norm(), 1e-15);
 }
 
-TEST(WindSettings, NamesAndEquationsAreThoseGiven) {
+TEST(WindSettings, NamesAreThoseGivenAndEquationsConsistent) {
   aero::WindSettings settings;
   settings.decks.resize(2);
   settings.decks[0].name = "foot";
   settings.decks[1].name = "cycle";
   EXPECT_EQ(settings.deck_names(), (std::vector<std::string>{"foot", "cycle"}));
-  EXPECT_EQ(settings.equation_choice(), aero::Equations::consistent);
-  settings.equations = "as_printed";
-  EXPECT_EQ(settings.equation_choice(), aero::Equations::as_printed);
+  EXPECT_EQ(settings.equations, aero::Equations::consistent);
 }
 
 // The models in their order, H_oblique among them, and no hybrid without zones.

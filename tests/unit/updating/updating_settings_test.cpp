@@ -26,18 +26,6 @@ TEST(UpdatingSettings, EachOptionTakesItsOwnValue) {
   EXPECT_TRUE(options.leave_one_out);
 }
 
-// Settings and options are written down twice: their usual values have to agree.
-TEST(UpdatingSettings, UsualValuesAreThoseOfTheOptions) {
-  const UpdatingOptions usual, from_settings = UpdatingSettings{}.options(usual.seed);
-  EXPECT_DOUBLE_EQ(from_settings.trust_radius, usual.trust_radius);
-  EXPECT_EQ(from_settings.starts, usual.starts);
-  EXPECT_EQ(from_settings.n_modes, usual.n_modes);
-  EXPECT_EQ(from_settings.max_iterations, usual.max_iterations);
-  EXPECT_EQ(from_settings.outer_iterations, usual.outer_iterations);
-  EXPECT_DOUBLE_EQ(from_settings.optimality_tolerance, usual.optimality_tolerance);
-  EXPECT_EQ(from_settings.leave_one_out, usual.leave_one_out);
-}
-
 // Shapes have no relative residual, so they are always weighed; frequencies alone only on demand.
 TEST(UpdatingSettings, RowsAreWeighedWithShapesOrOnDemand) {
   UpdatingSettings settings;
