@@ -10,7 +10,6 @@ namespace twindeck::buffeting {
 
 using Eigen::Index;
 using Eigen::MatrixXd;
-using Eigen::VectorXd;
 
 transient::LinearSystem equations_of_motion(const aero::AeroelasticSystem& system, double speed_m_s,
                                             double frozen_omega_rad_s) {
@@ -56,7 +55,7 @@ Response respond(const transient::Newmark& newmark, const Eigen::Ref<const Matri
   return out;
 }
 
-VectorXd root_mean_squares(const Eigen::Ref<const MatrixXd>& history) {
+Eigen::VectorXd root_mean_squares(const Eigen::Ref<const MatrixXd>& history) {
   const MatrixXd centred = history.rowwise() - history.colwise().mean();
   return (centred.colwise().squaredNorm() / static_cast<double>(history.rows())).cwiseSqrt().transpose();
 }

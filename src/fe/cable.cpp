@@ -17,7 +17,6 @@ namespace {
 using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::Vector3d;
-using Eigen::VectorXd;
 
 constexpr double force_range =
     4.0;                        ///< [-] the force is looked for within this factor of the taut string's, which sag never leaves
@@ -87,7 +86,7 @@ Cable cable_beyond_bar(const Model& model, const Element& stay, double force_N, 
   return cable;
 }
 
-VectorXd in_plane_frequencies(const Model& model, const Element& stay, const Cable& cable) {
+Eigen::VectorXd in_plane_frequencies(const Model& model, const Element& stay, const Cable& cable) {
   const auto ends = end_nodes(model, stay);
   const Vector3d along = (ends[1] - ends[0]).normalized();
   Vector3d across = Vector3d::UnitZ() - along.z() * along;
@@ -116,7 +115,7 @@ double force_of_harmonics(const Model& model, const Element& stay, const std::ve
   const double string = mass_per_length(model, stay) * std::pow(2.0 * length * std::exp(sum / used), 2);
   const auto misfit = [&](double log_force) {
     const double force = std::exp(log_force);
-    const VectorXd f = in_plane_frequencies(model, stay, cable_beyond_bar(model, stay, force, pieces));
+    const Eigen::VectorXd f = in_plane_frequencies(model, stay, cable_beyond_bar(model, stay, force, pieces));
     double out = 0.0;
     for (const StayHarmonic& h : harmonics)
       if (h.number <= pieces / 2) out += std::pow(std::log(f[h.number - 1] / h.frequency_Hz) / h.relative_std, 2);

@@ -14,8 +14,6 @@ namespace twindeck::fe {
 
 namespace {
 
-using Rows = std::vector<std::vector<DofMap::Entry>>;
-
 long id_of(const Model& model, int node) { return model.nodes[slot(node)].id; }
 
 /// The end of every node's chain of links.
@@ -188,7 +186,7 @@ DofMap make_dof_map(const Model& model) {
 
   // What reaches a slave, or what depends, reaches those degrees of freedom that move it.
   Motions motions(model, map.root);
-  Rows motion(slot(6 * n_nodes));
+  std::vector<std::vector<DofMap::Entry>> motion(slot(6 * n_nodes));
   std::vector<bool> active(slot(6 * n_nodes), false);
   for (int full = 0; full < 6 * n_nodes; ++full) {
     motion[slot(full)] = motions.of(full);

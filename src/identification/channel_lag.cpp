@@ -11,7 +11,6 @@
 
 namespace twindeck::identification {
 
-using Eigen::Index;
 using std::numbers::pi;
 
 namespace {
@@ -64,7 +63,7 @@ std::optional<Lag> fitted(const std::vector<Phase>& phases) {
 
 void estimate_lags(Conditioned& conditioned, const Identification& found) {
   for (std::size_t c = 0; c < conditioned.channels.size(); ++c) {
-    const auto at = static_cast<Index>(c);
+    const auto at = static_cast<Eigen::Index>(c);
     std::vector<Phase> phases;
     for (std::size_t m = 0; m < found.modes.size() && m < found.deviations.size(); ++m) {
       const Eigen::VectorXcd& shape = found.modes[m].shape;

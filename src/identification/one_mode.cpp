@@ -7,8 +7,6 @@
 
 namespace twindeck::identification {
 
-using Eigen::Index;
-
 namespace {
 
 constexpr double kApart = 3.0;     ///< standard deviations of the difference of two frequencies
@@ -28,13 +26,13 @@ double weighted(double sure, double sigma, double other, double other_sigma) {
 void fill_shape(MergedMode& sure, const MergedMode& other) {
   std::complex<double> product = 0.0;
   double norm = 0.0;
-  for (Index c = 0; c < sure.shape.size(); ++c) {
+  for (Eigen::Index c = 0; c < sure.shape.size(); ++c) {
     if (std::isnan(std::abs(sure.shape[c])) || std::isnan(std::abs(other.shape[c]))) continue;
     product += std::conj(other.shape[c]) * sure.shape[c];
     norm += std::norm(other.shape[c]);
   }
   const std::complex<double> scale = product / norm;
-  for (Index c = 0; c < sure.shape.size(); ++c) {
+  for (Eigen::Index c = 0; c < sure.shape.size(); ++c) {
     if (!std::isnan(std::abs(sure.shape[c])) || std::isnan(std::abs(other.shape[c]))) continue;
     sure.shape[c] = scale * other.shape[c];
     sure.deviation.shape_real[c] = std::abs(scale) * other.deviation.shape_real[c];

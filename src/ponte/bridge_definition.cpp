@@ -34,10 +34,11 @@ fe::Section round_section(const std::string& name, double outer_m, double inner_
   return out;
 }
 
-void check_wall(DefinitionFile& file, const std::string& path, double width_m, double wall_m) {
-  if (2 * wall_m >= width_m)
-    file.fail(path + ".wall", fmt::format("is {:g} m, expected less than half the width ({:g} m)", wall_m, width_m / 2),
-              "correct the wall or the width");
+/// @param size  what the message calls `size_m`
+void check_wall(DefinitionFile& file, const std::string& path, const std::string& size, double size_m, double wall_m) {
+  if (2 * wall_m >= size_m)
+    file.fail(path + ".wall", fmt::format("is {:g} m, expected less than half the {} ({:g} m)", wall_m, size, size_m / 2),
+              "correct the wall or the " + size);
 }
 
 /// Square hollow section of sharp corners: A = b² - (b-2t)², I = (b⁴ - (b-2t)⁴)/12, J = t (b-t)³ (Bredt), shear areas A/2 (two
@@ -99,7 +100,7 @@ fe::Section read_member_section(DefinitionFile& file, const std::string& path, c
   }
   const double width = file.number(path + (shape == "tube" ? ".diameter" : ".side"), "m", {1e-3, 10.0});
   const double wall = file.number(path + ".wall", "m", {1e-4, 5.0});
-  check_wall(file, path, width, wall);
+  check_wall(file, path, "width", width, wall);
   return scaled(shape == "tube" ? tube_section(name, width, wall) : square_hollow_section(name, width, wall), scale);
 }
 
@@ -120,7 +121,7 @@ StayType read_stay_type(DefinitionFile& file, const std::string& name) {
 }
 
 StayRow read_stay_row(DefinitionFile& file, const std::string& path, const std::vector<std::string>& types) {
-  return StayRow{.count = static_cast<int>(file.integer(path + ".count", 2, 50)),
+  return StayRow{.count = file.integer(path + ".count", 2, 50),
                  .spacing_m = file.number(path + ".spacing", "m", kLength),
                  .last_spacing_m = file.number(path + ".last_spacing", "m", kLength),
                  .prefix_north = file.text(path + ".prefix_north"),
@@ -205,9 +206,7 @@ MastDefinition read_mast(DefinitionFile& file) {
   out.lean_rad = file.number("mast.lean", "rad", {-1.0, 1.0});
   const double diameter = file.number("mast.outer_diameter", "m", {0.01, 100.0});
   const double wall = file.number("mast.wall", "m", {1e-3, 10.0});
-  if (2 * wall >= diameter)
-    file.fail("mast.wall", fmt::format("is {:g} m, expected less than half the diameter ({:g} m)", wall, diameter / 2),
-              "correct the wall or the diameter");
+  check_wall(file, "mast", "diameter", diameter, wall);
   const double steel_scale = file.number("mast.steel_scale", "", kFactor);
   out.steel = scaled(tube_section("mast_steel", diameter, wall), steel_scale);
   out.infill = scaled(solid_circle_section("mast_infill", diameter - 2 * wall), file.number("mast.infill_scale", "", kFactor));
@@ -220,7 +219,7 @@ MastDefinition read_mast(DefinitionFile& file) {
 EndDefinition read_ends(DefinitionFile& file) {
   const Range size{0.05, 100.0};  // [m]
   const auto length = [&](const std::string& key) { return file.number("ends." + key, "m", size); };
-  const auto count = [&](const std::string& key) { return static_cast<int>(file.integer("mesh." + key, 1, 40)); };
+  const auto count = [&](const std::string& key) { return file.integer("mesh." + key, 1, 40); };
   EndDefinition out;
   out.material = "concrete_ends";
   out.block_gap_m = length("block_gap");
@@ -231,7 +230,7 @@ EndDefinition read_ends(DefinitionFile& file) {
   out.beams_per_span = count("beams_per_span");
   out.ramp_length_m = file.number("ends.ramp_length", "m", {1.0, 1e3});
   out.ramp_end_z_m = length("ramp_end_z");
-  out.ramp_spans = static_cast<int>(file.integer("ends.ramp_spans", 1, 100));
+  out.ramp_spans = file.integer("ends.ramp_spans", 1, 100);
   // Walls stand with their width across; their local z lies along the ramp.
   out.pier = rectangle_section("pier", length("pier_thickness"), length("pier_width"));
   out.ramp = rectangle_section("ramp", length("ramp_depth"), length("ramp_width"));
@@ -316,10 +315,8 @@ BridgeDefinition read_definition(DefinitionFile file) {
   out.source = file.name();
   out.title = file.text("title");
   out.gravity_m_s2 = file.number("gravity", "m/s^2", {0.0, 100.0});
-  out.mesh = {static_cast<int>(file.integer("mesh.panels_per_stay_spacing", 1, 40)),
-              static_cast<int>(file.integer("mesh.shells_across", 2, 40)),
-              static_cast<int>(file.integer("mesh.shells_per_panel_along", 1, 20)),
-              static_cast<int>(file.integer("mesh.members_per_panel", 1, 20))};
+  out.mesh = {file.integer("mesh.panels_per_stay_spacing", 1, 40), file.integer("mesh.shells_across", 2, 40),
+              file.integer("mesh.shells_per_panel_along", 1, 20), file.integer("mesh.members_per_panel", 1, 20)};
   const std::vector<std::string> materials = {"concrete_normal", "concrete_light", "steel"};
   for (const std::string& name : materials) out.materials.push_back(read_material(file, name));
   const std::vector<std::string> stay_types = file.names_below("stay_type");
@@ -335,7 +332,7 @@ BridgeDefinition read_definition(DefinitionFile file) {
     out.materials.push_back(kRigid);
     out.ends = read_ends(file);
   }
-  if (file.has("aerodynamics")) out.aerodynamic_nodes = static_cast<int>(file.integer("aerodynamics.nodes_per_deck", 2, 1000));
+  if (file.has("aerodynamics")) out.aerodynamic_nodes = file.integer("aerodynamics.nodes_per_deck", 2, 1000);
   out.minimum_pull_N = file.number("prestress.minimum_pull", "N", {0.0, 1e8});
   out.ridge = file.number("prestress.ridge", "", {0.0, 1e3});
   out.site_weight = file.number("prestress.site_weight", "", {0.0, 1e3});

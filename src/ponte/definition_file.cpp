@@ -113,11 +113,11 @@ double DefinitionFile::number(const std::string& path, const std::string& unit, 
   return result;
 }
 
-long DefinitionFile::integer(const std::string& path, long lower, long upper) {
+int DefinitionFile::integer(const std::string& path, int lower, int upper) {
   const double value = number(path, "", {static_cast<double>(lower), static_cast<double>(upper)});
   if (value != std::floor(value))
     fail(path, fmt::format("is {:g}, expected a whole number", value), "give a number without a fraction");
-  return static_cast<long>(value);
+  return static_cast<int>(value);
 }
 
 std::string DefinitionFile::text(const std::string& path) {

@@ -26,7 +26,7 @@ class DefinitionFile {
 
   /// The value in `unit`. @throws InputError if it is missing, no number, of another dimension, or out of `range`
   [[nodiscard]] double number(const std::string& path, const std::string& unit, Range range);
-  [[nodiscard]] long integer(const std::string& path, long lower, long upper);
+  [[nodiscard]] int integer(const std::string& path, int lower, int upper);
   [[nodiscard]] std::string text(const std::string& path);
   /// A text that must be one of `allowed`; the message names the nearest.
   [[nodiscard]] std::string choice(const std::string& path, const std::vector<std::string>& allowed);

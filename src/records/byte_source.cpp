@@ -9,7 +9,6 @@
 #include "core/error.hpp"
 
 namespace twindeck::records {
-namespace fs = std::filesystem;
 
 namespace {
 
@@ -20,7 +19,7 @@ constexpr std::uint64_t kMostInflation = 1032;
 }  // namespace
 
 struct ByteSource::State {
-  fs::path file;
+  std::filesystem::path file;
   std::ifstream in;
   std::uint64_t left = 0;  ///< bytes of the part that are still to be read from the file
   std::uint64_t position = 0;
@@ -64,7 +63,7 @@ struct ByteSource::State {
   }
 };
 
-ByteSource::ByteSource(const fs::path& file, std::uint64_t offset, std::uint64_t length, bool compressed)
+ByteSource::ByteSource(const std::filesystem::path& file, std::uint64_t offset, std::uint64_t length, bool compressed)
     : state_(std::make_unique<State>()) {
   state_->file = file;
   state_->in.open(file, std::ios::binary);

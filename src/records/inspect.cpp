@@ -11,7 +11,6 @@
 #include "records/take_clock.hpp"
 
 namespace twindeck::records {
-namespace fs = std::filesystem;
 using Eigen::Index;
 
 void ChannelStatistics::close_run() {
@@ -67,7 +66,7 @@ ChannelSummary ChannelStatistics::summary(Index count) const {
   return summary;
 }
 
-Inspection inspect(const fs::path& file) {
+Inspection inspect(const std::filesystem::path& file) {
   Inspection result;
   std::vector<ChannelStatistics> statistics;
   Index samples = 0;

@@ -11,7 +11,6 @@
 #include "records/time_columns.hpp"
 
 namespace twindeck::records {
-namespace fs = std::filesystem;
 using Eigen::Index;
 
 namespace {
@@ -41,7 +40,7 @@ void visit_matrix(const MatFile& mat, const MatArray& array, bool transposed, co
 
 }  // namespace
 
-RecordInfo scan_mat(const fs::path& file, const Visitor& visit) {
+RecordInfo scan_mat(const std::filesystem::path& file, const Visitor& visit) {
   const MatFile mat = read_mat_contents(file);
   const auto shapes = each_of(mat.arrays, &MatArray::shape);
   const ArrayChoice choice = choose_arrays(shapes, mat.notes, file.string());

@@ -6,8 +6,6 @@
 #include "io/atomic.hpp"
 
 namespace twindeck::records {
-namespace fs = std::filesystem;
-using Eigen::Index;
 
 namespace {
 
@@ -15,15 +13,18 @@ constexpr const char* kDelimiter = "    -1\n";
 
 std::string text_line(const std::string& text) { return fmt::format("{:<80}\n", text.substr(0, 80)); }
 
-/// Values in fields such as E13.5, `a_line` of them per line.
-std::string value_lines(const std::vector<double>& values, std::size_t a_line, int total, int digits) {
+/// Fields in lines of `a_line` each.
+template <typename Value>
+std::string field_lines(const std::vector<Value>& values, fmt::format_string<const Value&> field, std::size_t a_line) {
   std::string text;
   for (std::size_t i = 0; i < values.size(); ++i) {
-    text += fmt::format("{:>{}.{}E}", values[i], total, digits);
+    text += fmt::format(field, values[i]);
     if (i % a_line == a_line - 1 || i + 1 == values.size()) text += '\n';
   }
   return text;
 }
+
+std::string value_lines(const std::vector<double>& values) { return field_lines(values, "{:>13.5E}", 6); }
 
 std::string header_text(const std::string& title) {
   std::string text = kDelimiter;
@@ -46,14 +47,7 @@ std::string node_text(const UniversalData& data) {
   return text + kDelimiter;
 }
 
-std::string label_lines(const std::vector<long>& labels) {
-  std::string text;
-  for (std::size_t k = 0; k < labels.size(); ++k) {
-    text += fmt::format("{:>10}", labels[k]);
-    if (k % 8 == 7 || k + 1 == labels.size()) text += '\n';
-  }
-  return text;
-}
+std::string label_lines(const std::vector<long>& labels) { return field_lines(labels, "{:>10}", 8); }
 
 std::string element_text(const UniversalData& data) {
   if (data.elements.empty()) return "";
@@ -76,7 +70,7 @@ std::string line_text(std::size_t number, const std::vector<long>& line) {
 
 std::string result_text(const NodalResult& result) {
   TWINDECK_ASSERT(!result.values.empty());
-  const Index n = result.values.begin()->second.size();
+  const Eigen::Index n = result.values.begin()->second.size();
   std::string text = kDelimiter;
   text += "    55\n" + text_line(result.title);
   for (int i = 0; i < 4; ++i) text += text_line("NONE");
@@ -86,10 +80,10 @@ std::string result_text(const NodalResult& result) {
       fmt::format("{:>10}{:>10}{:>10}{:>10}{:>10}{:>10}\n", 1, result.analysis, n == 6 ? 3 : 2, 8, result.complex ? 5 : 2, n);
   if (result.is_complex_mode()) {
     text += fmt::format("{:>10}{:>10}{:>10}{:>10}\n", 2, 6, 1, result.mode);
-    text += value_lines({result.eigenvalue.real(), result.eigenvalue.imag(), 1.0, 0.0, 0.0, 0.0}, 6, 13, 5);
+    text += value_lines({result.eigenvalue.real(), result.eigenvalue.imag(), 1.0, 0.0, 0.0, 0.0});
   } else {
     text += fmt::format("{:>10}{:>10}{:>10}{:>10}\n", 2, 4, 1, result.mode);
-    text += value_lines({result.frequency_Hz, 1.0, result.damping_ratio, 0.0}, 6, 13, 5);
+    text += value_lines({result.frequency_Hz, 1.0, result.damping_ratio, 0.0});
   }
   for (const auto& [node, values] : result.values) {
     text += fmt::format("{:>10}\n", node);
@@ -98,14 +92,14 @@ std::string result_text(const NodalResult& result) {
       list.push_back(value.real());
       if (result.complex) list.push_back(value.imag());
     }
-    text += value_lines(list, 6, 13, 5);
+    text += value_lines(list);
   }
   return text + kDelimiter;
 }
 
 }  // namespace
 
-void write_universal(const UniversalData& data, const fs::path& file) {
+void write_universal(const UniversalData& data, const std::filesystem::path& file) {
   std::string text = header_text(data.title) + node_text(data) + element_text(data);
   for (std::size_t i = 0; i < data.lines.size(); ++i) text += line_text(i + 1, data.lines[i]);
   for (const NodalResult& result : data.results) text += result_text(result);

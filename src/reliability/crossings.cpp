@@ -7,9 +7,6 @@
 
 namespace twindeck::reliability {
 
-using Eigen::Index;
-using Eigen::VectorXd;
-
 double SpectralMoments::mean_rate_Hz() const {
   return variance > 0.0 ? std::sqrt(second / variance) / (2.0 * std::numbers::pi) : 0.0;
 }
@@ -18,12 +15,13 @@ double SpectralMoments::bandwidth() const {
   return variance > 0.0 && second > 0.0 ? std::sqrt(std::max(0.0, 1.0 - first * first / (variance * second))) : 0.0;
 }
 
-SpectralMoments spectral_moments(const Eigen::Ref<const VectorXd>& f_Hz, const Eigen::Ref<const VectorXd>& spectrum) {
+SpectralMoments spectral_moments(const Eigen::Ref<const Eigen::VectorXd>& f_Hz,
+                                 const Eigen::Ref<const Eigen::VectorXd>& spectrum) {
   TWINDECK_ASSERT(f_Hz.size() == spectrum.size() && f_Hz.size() >= 2);
   SpectralMoments out;
-  for (Index i = 0; i + 1 < f_Hz.size(); ++i) {
+  for (Eigen::Index i = 0; i + 1 < f_Hz.size(); ++i) {
     const double width = 0.5 * (f_Hz[i + 1] - f_Hz[i]);
-    for (const Index k : {i, i + 1}) {
+    for (const Eigen::Index k : {i, i + 1}) {
       const double omega = 2.0 * std::numbers::pi * f_Hz[k], part = width * spectrum[k];
       out.variance += part;
       out.first += part * omega;

@@ -6,6 +6,7 @@
 #include "aero/wind_model.hpp"
 #include "core/error.hpp"
 #include "fe/assembly_terms.hpp"
+#include "fe/cable.hpp"
 #include "fe/model.hpp"
 
 namespace twindeck::reliability {
@@ -92,7 +93,7 @@ MemberRows stay_forces(const dynamics::LoadedModel& loaded, const Eigen::MatrixX
     const fe::Element& stay = model.elements[static_cast<std::size_t>(e)];
     const Eigen::Vector3d chord = model.nodes[fe::slot(stay.nodes[1])].x_m - model.nodes[fe::slot(stay.nodes[0])].x_m;
     const double length = chord.norm();
-    out.names.push_back(stay.name.empty() ? std::to_string(stay.id) : stay.name);
+    out.names.push_back(fe::stay_name(stay));
     out.area_m2[k] = model.sections[fe::slot(stay.section)].area_m2;
     if (loaded.state.stay_pull_N.size() > 0) out.pull_N[k] = loaded.state.stay_pull_N[e];
     const double young = model.materials[fe::slot(stay.material)].youngs_modulus_Pa, pull = out.pull_N[k];

@@ -5,7 +5,6 @@
 #include <cmath>
 
 #include "core/parallel.hpp"
-#include "dynamics/eigenmodes.hpp"
 #include "linalg/block_lanczos.hpp"
 #include "linalg/cholesky.hpp"
 #include "linalg/dense.hpp"
@@ -18,7 +17,6 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 using linalg::product;
-using linalg::subtract_product;
 using linalg::symmetric_product;
 
 constexpr double kAdjointTolerance = 1e-7;  ///< residual of an adjoint vector, in the M norm
@@ -97,7 +95,7 @@ class AdjointSpace {
   Adjoint solve(const Eigen::Ref<const MatrixXd>& channels) {
     Adjoint out;
     MatrixXd outside = channels;
-    subtract_product(mass_shapes_, product(modes_.shapes, channels, true), outside);
+    linalg::subtract_product(mass_shapes_, product(modes_.shapes, channels, true), outside);
     out.statics = from_mass(outside);
     const MatrixXd mass_statics = symmetric_product(mass_, out.statics);
     const VectorXd size = out.statics.cwiseProduct(mass_statics).colwise().sum().cwiseAbs().cwiseSqrt();
@@ -128,7 +126,7 @@ class AdjointSpace {
   /// A⁻¹ B without its part in the modes, which is rounding.
   MatrixXd from_mass(const MatrixXd& b) const {
     MatrixXd x = factor_.solve(b);
-    subtract_product(modes_.shapes, product(mass_shapes_, x, true), x);
+    linalg::subtract_product(modes_.shapes, product(mass_shapes_, x, true), x);
     return x;
   }
 

@@ -13,35 +13,6 @@
 namespace twindeck::sensitivity {
 namespace {
 
-class PerturbedFrequencies {
- public:
-  PerturbedFrequencies(const fe::ParametricSystem& system, const matching::ModeFollower& follower, const Eigen::VectorXd& theta,
-                       int n_modes)
-      : solver_(system), follower_(follower), theta_(theta), n_modes_(n_modes) {}
-
-  Eigen::VectorXd at(int parameter, double change) {
-    Eigen::VectorXd theta = theta_;
-    theta(parameter) += change;
-    const dynamics::EigenModes modes = solver_.solve(theta, n_modes_);
-    if (!modes.status.converged) {
-      if (status.converged) status = modes.status;
-      return Eigen::VectorXd::Constant(n_modes_, std::nan(""));
-    }
-    const matching::FollowedModes followed = follower_.follow(modes.shapes);
-    Eigen::VectorXd frequency(n_modes_);
-    for (int i = 0; i < n_modes_; ++i) frequency(i) = modes.frequency_Hz(followed.position[static_cast<std::size_t>(i)]);
-    return frequency;
-  }
-
-  Status status;
-
- private:
-  dynamics::ModalSolver solver_;
-  const matching::ModeFollower& follower_;
-  const Eigen::VectorXd& theta_;
-  int n_modes_;
-};
-
 // Step that changes the most sensitive frequency by `frequency_change`. The step is small enough for close modes. For a
 // parameter that hardly matters it is large enough to stand above rounding.
 double central_step(const Sensitivities& known, const Eigen::MatrixXd& relative, int parameter,
@@ -53,16 +24,27 @@ double central_step(const Sensitivities& known, const Eigen::MatrixXd& relative,
 
 Status differentiate(const fe::ParametricSystem& system, const matching::ModeFollower& follower, int n_solved, int parameter,
                      double central, const SensitivityOptions& options, Sensitivities& out) {
-  PerturbedFrequencies frequencies(system, follower, out.theta, n_solved);
-  const auto n = out.frequency_Hz.size();
-  const auto slope = [&](double h) -> Eigen::VectorXd {
-    return ((frequencies.at(parameter, h) - frequencies.at(parameter, -h)) / (2.0 * h)).head(n);
+  dynamics::ModalSolver solver(system);
+  Status status;
+  const auto frequencies = [&](double change) -> Eigen::VectorXd {
+    Eigen::VectorXd theta = out.theta, frequency(n_solved);
+    theta(parameter) += change;
+    const dynamics::EigenModes modes = solver.solve(theta, n_solved);
+    if (!modes.status.converged) {
+      if (status.converged) status = modes.status;
+      return frequency.setConstant(std::nan(""));
+    }
+    const matching::FollowedModes followed = follower.follow(modes.shapes);
+    for (int i = 0; i < n_solved; ++i) frequency(i) = modes.frequency_Hz(followed.position[static_cast<std::size_t>(i)]);
+    return frequency;
   };
+  const auto n = out.frequency_Hz.size();
+  const auto slope = [&](double h) -> Eigen::VectorXd { return ((frequencies(h) - frequencies(-h)) / (2.0 * h)).head(n); };
   const Eigen::VectorXd whole = slope(central), half = slope(0.5 * central);
   out.richardson.col(parameter) = (4.0 * half - whole) / 3.0;
   const double dp = options.forward_step * out.scale(parameter);
-  out.forward.col(parameter) = (frequencies.at(parameter, dp).head(n) - out.frequency_Hz) / dp;
-  return frequencies.status;
+  out.forward.col(parameter) = (frequencies(dp).head(n) - out.frequency_Hz) / dp;
+  return status;
 }
 
 }  // namespace

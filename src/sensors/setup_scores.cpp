@@ -14,19 +14,14 @@ namespace twindeck::sensors {
 
 using Eigen::Index;
 using Eigen::MatrixXd;
-using Eigen::VectorXd;
 namespace {
 
 MatrixXd rows_of(const MatrixXd& phi, const std::vector<Index>& rows) { return phi(rows, Eigen::all); }
 
 /// Random whole numbers below n, one after the other.
-class Draw {
- public:
-  Draw(std::uint64_t seed, std::uint64_t stream) : seed_(seed), stream_(stream) {}
-  Index below(Index n) { return static_cast<Index>(uniform_number(seed_, stream_, at_++) * static_cast<double>(n)); }
-
- private:
-  std::uint64_t seed_, stream_, at_ = 0;
+struct Draw {
+  std::uint64_t seed, stream, at = 0;
+  Index below(Index n) { return static_cast<Index>(uniform_number(seed, stream, at++) * static_cast<double>(n)); }
 };
 
 /// Points by how far along their deck they stand: "foot_inner" and "foot_outer" at one s are one place of deck "foot".
@@ -173,7 +168,7 @@ void append_given(const LayoutSettings& config, const std::vector<LayoutPoint>& 
   for (const std::string& name : setup_names(setups)) {
     out.push_back(from_file(name, setups, candidates));
     out.back().score = score_of(phi, out.back().rows);
-    Draw draw(seed, ++stream);
+    Draw draw{seed, ++stream};
     std::vector<double> drawn;
     for (long i = 0; i < config.draws; ++i) drawn.push_back(score_of(phi, moved(out.back(), points, places, draw)));
     summarise(out.back(), drawn);
@@ -183,7 +178,7 @@ void append_given(const LayoutSettings& config, const std::vector<LayoutPoint>& 
 /// Appends those of the freely drawn setups that decouple most.
 void append_drawn(const LayoutSettings& config, const std::vector<LayoutChannel>& candidates, const MatrixXd& phi,
                   std::uint64_t seed, std::uint64_t& stream, std::vector<ScoredSetup>& out) {
-  Draw draw(seed, ++stream);
+  Draw draw{seed, ++stream};
   std::vector<std::pair<double, std::vector<Index>>> free;
   std::vector<double> drawn;
   for (long i = 0; i < config.draws; ++i) {
@@ -284,7 +279,7 @@ Layout effective_independence(const Eigen::Ref<const MatrixXd>& phi, Index count
     layout.worth = 2.0 * qr.matrixR().diagonal().head(kept.cols()).cwiseAbs().array().log().sum();
     if (std::ssize(layout.rows) == count) return layout;
     const MatrixXd q = qr.householderQ() * MatrixXd::Identity(kept.rows(), kept.cols());
-    const VectorXd leverage = q.rowwise().squaredNorm();
+    const Eigen::VectorXd leverage = q.rowwise().squaredNorm();
     const double smallest = leverage.minCoeff();
     Index least = 0;
     while (leverage[least] > smallest + kSameLeverage) ++least;

@@ -8,7 +8,6 @@ namespace twindeck::updating {
 
 namespace {
 
-using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
@@ -57,7 +56,7 @@ class DampedNormal {
 std::vector<int> free_components(const VectorXd& x, const VectorXd& gradient, const Box& box) {
   const std::vector<bool> rests = held(x, gradient, box, 1e-9);
   std::vector<int> free;
-  for (Index j = 0; j < x.size(); ++j)
+  for (Eigen::Index j = 0; j < x.size(); ++j)
     if (!rests[static_cast<std::size_t>(j)]) free.push_back(static_cast<int>(j));
   return free;
 }

@@ -18,7 +18,7 @@ constexpr double kNewtonsPerKilonewton = 1e3;
 constexpr double kPerCent = 1e-2;
 constexpr double kMetresPerMillimetre = 1e-3;
 constexpr DefinitionFile::Range kAny{-std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity()};
-constexpr long kMostModes = 10'000, kMostIterations = 100'000;
+constexpr int kMostModes = 10'000, kMostIterations = 100'000;
 /// Names of updating::DataKind in `use` of a trial, in its order.
 const std::vector<std::string> kKinds = {"frequencies", "forces", "masses", "displacements"};
 
@@ -53,7 +53,7 @@ CalibrationValue read_value(const Keys& keys) {
 CalibrationTarget read_target(const Keys& keys) {
   CalibrationTarget out{keys.text("variant"), keys.text("source"), {}, keys.numbers("frequency_Hz")};
   for (std::size_t i = 0; i < keys.file.size(keys.path("modes")); ++i)
-    out.modes.push_back(static_cast<int>(keys.file.integer(keys.path("modes." + std::to_string(i)), 1, kMostModes)));
+    out.modes.push_back(keys.file.integer(keys.path("modes." + std::to_string(i)), 1, kMostModes));
   keys.expect(out.modes.size() == out.frequency_Hz.size() && !out.modes.empty(), "frequency_Hz", "are not as many as modes",
               "give one frequency a mode");
   return out;
@@ -220,7 +220,7 @@ Calibration read_calibration(const std::filesystem::path& path) {
     const Keys fit{file, "fit"};
     out.frequency_std = kPerCent * fit.number("frequency_std_pct");
     out.whole_range_costs = fit.number("whole_range_costs");
-    out.max_iterations = static_cast<int>(file.integer("fit.max_iterations", 1, kMostIterations));
+    out.max_iterations = file.integer("fit.max_iterations", 1, kMostIterations);
   }
   file.refuse_unknown();
   check_names(out, file.name());

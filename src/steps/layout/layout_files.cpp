@@ -11,7 +11,6 @@
 #include "io/csv.hpp"
 
 namespace twindeck::steps {
-namespace fs = std::filesystem;
 
 namespace {
 
@@ -26,7 +25,7 @@ bool same_measurement(const sensors::LayoutChannel& a, const sensors::LayoutChan
 
 }  // namespace
 
-std::vector<sensors::LayoutPoint> read_points(const fs::path& file) {
+std::vector<sensors::LayoutPoint> read_points(const std::filesystem::path& file) {
   const auto table = io::CsvTable::read(file, {"point", "line", "s_m", "x_m", "y_m", "z_m", "rx", "ry", "rz"});
   std::vector<sensors::LayoutPoint> points;
   std::set<std::string> names;
@@ -44,7 +43,8 @@ std::vector<sensors::LayoutPoint> read_points(const fs::path& file) {
   return points;
 }
 
-std::vector<sensors::LayoutChannel> read_setups(const fs::path& file, const std::vector<sensors::LayoutPoint>& points) {
+std::vector<sensors::LayoutChannel> read_setups(const std::filesystem::path& file,
+                                                const std::vector<sensors::LayoutPoint>& points) {
   const auto table = io::CsvTable::read(file, {"setup", "family", "channel", "point", "direction"});
   std::vector<std::string> known = each_of(points, &sensors::LayoutPoint::name);
   std::vector<sensors::LayoutChannel> channels;
