@@ -46,22 +46,27 @@ std::pair<VectorXd, double> open_modes(const FeatureMap& map, const Prediction& 
   return {variance, log_prior};
 }
 
-/// Covariance of a class; empty without columns.
-MatrixXd class_of(const MatrixXd& columns) { return columns.cols() > 0 ? linalg::square(columns) : MatrixXd(); }
-
-/// Covariance along a contrast of changes with independent increments: a Wiener process that starts at zero contrast (n_rows ×
-/// n_rows). It allows smooth changes and changes of direction. The part common to all conditions belongs to the form error.
-MatrixXd along(const Contrast& contrast, const FeatureSet& features, const std::vector<int>& rows) {
+/// The class of a contrast: changes with independent increments, a Wiener process that starts at zero contrast. It allows
+/// smooth changes and changes of direction. The part common to all conditions belongs to the form error.
+/// @param lasting (n_rows × n_lasting) columns of the errors that change
+ErrorColumns along(const Contrast& contrast, const FeatureSet& features, const std::vector<int>& rows,
+                   const MatrixXd& lasting) {
   VectorXd weight(std::ssize(rows));
   for (Index r = 0; r < weight.size(); ++r)
     weight[r] = contrast.weight[features.rows[static_cast<std::size_t>(rows[static_cast<std::size_t>(r)])].condition];
   weight.array() -= std::max(weight.minCoeff(), 0.0);
-  if (weight.isZero(0.0)) return {};
-  MatrixXd out(weight.size(), weight.size());
-  for (Index i = 0; i < out.rows(); ++i)
-    for (Index j = 0; j < out.cols(); ++j)
-      out(i, j) = weight[i] * weight[j] > 0.0 ? std::min(std::abs(weight[i]), std::abs(weight[j])) : 0.0;
-  return out;
+  std::vector<MatrixXd> increments;
+  for (const double sign : {-1.0, 1.0}) {
+    const VectorXd way = (sign * weight).cwiseMax(0.0);
+    double before = 0.0;
+    for (const double level : std::set<double>(way.begin(), way.end())) {
+      if (level > 0.0)
+        increments.emplace_back((std::sqrt(level - before) * (way.array() >= level).cast<double>()).matrix().asDiagonal() *
+                                lasting);
+      before = level;
+    }
+  }
+  return ErrorColumns(beside(increments, weight.size()));
 }
 
 }  // namespace
@@ -109,19 +114,11 @@ FitSystem law_system(const Inference& plain, const Fit& fit, const std::vector<C
     const auto position = static_cast<std::size_t>(gains[static_cast<std::size_t>(k)]);
     gain.col(k) = kUnitOfClasses / map.nuisances()[position].deviation * j.col(gains[static_cast<std::size_t>(k)]);
   }
-  out.classes = {class_of(kUnitOfClasses * form.frequency(rows, Eigen::all)),
-                 class_of(kUnitOfClasses * form.shape(rows, Eigen::all)),
-                 class_of(kUnitOfClasses * form.kinks(rows, Eigen::all)), class_of(gain)};
-  for (const Contrast& contrast : contrasts) {
-    MatrixXd share = along(contrast, map.features(), rows);
-    if (share.size() > 0) {
-      MatrixXd all = MatrixXd::Zero(share.rows(), share.cols());
-      for (const int c : {kFrequencies, kShapes, kKinks})
-        if (out.classes[c].size() > 0) all += out.classes[c];
-      share.array() *= all.array();
-    }
-    out.classes.push_back(std::move(share));
-  }
+  const MatrixXd frequency = kUnitOfClasses * form.frequency(rows, Eigen::all),
+                 shape = kUnitOfClasses * form.shape(rows, Eigen::all), kinks = kUnitOfClasses * form.kinks(rows, Eigen::all);
+  for (const MatrixXd& columns : {frequency, shape, kinks, gain}) out.classes.emplace_back(columns);
+  const MatrixXd lasting = beside({frequency, shape, kinks}, std::ssize(rows));
+  for (const Contrast& contrast : contrasts) out.classes.push_back(along(contrast, map.features(), rows, lasting));
   VectorXd x = fit.map.x;
   x.tail(asked).setZero();
   out.residual = map.values()(rows) - fit.map.g + j * x;
@@ -141,9 +138,9 @@ bool can_be_weighed(const LawSystem& system) {
   const MatrixXd& s = system.signatures;
   const bool sound = s.size() == 0 ||
                      (s.allFinite() && (s.cwiseAbs().rowwise().maxCoeff().array() < kLargestColumn * deviation.array()).all());
-  const auto is_small = [&](const MatrixXd& covariance) {
-    return covariance.size() == 0 ||
-           (covariance.allFinite() && (covariance.diagonal().cwiseSqrt().array() < kLargestColumn * deviation.array()).all());
+  const auto is_small = [&](const ErrorColumns& c) {
+    return c.empty() || (c.covariance.allFinite() &&
+                         (c.covariance.diagonal().cwiseSqrt().array() < kLargestColumn * deviation.array()).all());
   };
   return sound && std::ranges::all_of(system.classes, is_small);
 }

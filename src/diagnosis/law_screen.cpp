@@ -160,7 +160,7 @@ Index first_of_equals(const VectorXd& terms) {
 std::vector<ActiveClass> lasting_classes(const LawSystem& system) {
   std::vector<ActiveClass> out;
   for (int c = 0; c < kFirstContrast; ++c)
-    if (system.classes[static_cast<std::size_t>(c)].cols() > 0) out.push_back({c, 1.0});
+    if (!system.classes[static_cast<std::size_t>(c)].empty()) out.push_back({c, 1.0});
   return out;
 }
 

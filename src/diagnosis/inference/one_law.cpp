@@ -18,7 +18,8 @@ using Eigen::VectorXd;
 constexpr double kRidge = 0.3;        // part of H added to a step: a class that the data do not determine moves slowly
 constexpr double kLongestStep = 1.5;  // of ln tau
 constexpr int kIterations = 25, kHalvings = 5;
-constexpr double kSettled = 0.02;  // [nats] expected gain of a further step below which the search ends
+constexpr double kRounding = 1e-15;  // [-] of a covariance's trace
+constexpr double kSettled = 0.02;    // [nats] expected gain of a further step below which the search ends
 
 double log_of_sum(const VectorXd& v, VectorXd& weight) {
   const double top = v.maxCoeff();
@@ -46,10 +47,23 @@ double log_width(const MatrixXd& precision, const VectorXd& range) {
       0.0);
 }
 
+ErrorColumns::ErrorColumns(const MatrixXd& of) {
+  std::vector<Index> kept;
+  for (Index j = 0; j < of.cols(); ++j)
+    if (!of.col(j).isZero(0.0)) kept.push_back(j);
+  if (kept.empty()) return;
+  columns = of(Eigen::all, kept);
+  covariance = linalg::square(columns);
+  if (columns.cols() <= columns.rows() || !covariance.allFinite()) return;
+  const linalg::LeadingEigenpairs pairs = linalg::eigenpairs_above(covariance, kRounding * covariance.trace());
+  columns = pairs.vectors * pairs.values.cwiseSqrt().asDiagonal();
+}
+
 MatrixXd covariance_at(const LawSystem& system, const VectorXd& tau) {
   MatrixXd out = system.sigma;
   for (std::size_t c = 0; c < system.classes.size(); ++c)
-    if (const double t = tau[static_cast<Index>(c)]; t > 0.0 && system.classes[c].size() > 0) out += t * t * system.classes[c];
+    if (const double t = tau[static_cast<Index>(c)]; t > 0.0 && !system.classes[c].empty())
+      out += t * t * system.classes[c].covariance;
   return out;
 }
 
@@ -110,7 +124,7 @@ void OneLaw::slope_of(const LawHypothesis& hypothesis, Look& look) const {
   std::vector<MatrixXd> along;  // L^-1 P_c alpha, each column times the square root of its weight
   for (Index k = 0; k < count; ++k) {
     const ActiveClass& active = hypothesis.active[static_cast<std::size_t>(k)];
-    const MatrixXd& square = system_.classes[static_cast<std::size_t>(active.index)];
+    const MatrixXd& square = system_.classes[static_cast<std::size_t>(active.index)].covariance;
     const double tau = look.tau[active.index], q = tau * tau / (3.0 * active.scale * active.scale);
     MatrixXd moved = linalg::product(square, alpha);
     const VectorXd power = moved.cwiseProduct(alpha).colwise().sum();
@@ -124,11 +138,11 @@ void OneLaw::slope_of(const LawHypothesis& hypothesis, Look& look) const {
 }
 
 MatrixXd OneLaw::expected_curvature(const LawHypothesis& hypothesis, const Look& look) const {
-  std::vector<MatrixXd> relative;  // Sigma^-1 P_c
+  std::vector<MatrixXd> whitened;  // L^-1 D_c
   for (const ActiveClass& active : hypothesis.active)
-    relative.push_back(linalg::product(look.inverse, system_.classes[static_cast<std::size_t>(active.index)]));
+    whitened.push_back(linalg::lower_solve(look.point.lower, system_.classes[static_cast<std::size_t>(active.index)].columns));
   return with_prior(hypothesis, look, [&](std::size_t k, std::size_t l) {
-    return relative[k].cwiseProduct(relative[l].transpose()).sum();  // the trace of their product
+    return linalg::product(whitened[k], whitened[l], true).squaredNorm();
   });
 }
 

@@ -6,16 +6,26 @@
 
 namespace twindeck::diagnosis {
 
+/// A class of errors of unit scale.
+struct ErrorColumns {
+  Eigen::MatrixXd columns;     ///< D (n_rows × n_columns), no more columns than rows; empty for a class without columns
+  Eigen::MatrixXd covariance;  ///< P = D D' (n_rows × n_rows), or empty
+
+  /// @param of (n_rows × n) columns with this covariance; there may be more of them than rows
+  explicit ErrorColumns(const Eigen::MatrixXd& of);
+  [[nodiscard]] bool empty() const { return columns.cols() == 0; }
+};
+
 /// The law of a residual. Under a hypothesis h
 ///   r - s_h(a) ~ N(0, Sigma(tau)),   Sigma(tau) = Sigma_0 + sum_c tau_c² D_c D_c'.
 /// Sigma_0 is the known covariance. Each class c of errors has columns D_c of unit scale and an unknown scale tau_c, with a
 /// half-t prior of three degrees of freedom. A hypothesis states which classes are active.
 struct LawSystem {
-  Eigen::MatrixXd sigma;                 ///< Sigma_0 (n_rows × n_rows)
-  std::vector<Eigen::MatrixXd> classes;  ///< P_c = D_c D_c' (n_rows × n_rows each), or empty for a class without columns
-  Eigen::VectorXd residual;              ///< r (n_rows)
-  Eigen::MatrixXd signatures;            ///< (n_rows × n_signatures) change of the rows by each cause
-  double log_prior = 0.0;                ///< ln prior of the modes that the system holds for none of the model's
+  Eigen::MatrixXd sigma;              ///< Sigma_0 (n_rows × n_rows)
+  std::vector<ErrorColumns> classes;  ///< D_c
+  Eigen::VectorXd residual;           ///< r (n_rows)
+  Eigen::MatrixXd signatures;         ///< (n_rows × n_signatures) change of the rows by each cause
+  double log_prior = 0.0;             ///< ln prior of the modes that the system holds for none of the model's
 };
 
 /// Sigma(tau) (n_rows × n_rows). @param tau  (n_classes) 0 where a class is absent
@@ -58,7 +68,8 @@ struct LawEvidence {
 /// q_c = tau_c² / (3 s_c²)
 ///   gradient  tau_c² (alpha' P_c alpha - tr Sigma^-1 P_c) + 1 - 4 q_c / (1 + q_c),
 ///   steps     H_cd = 2 tau_c² tau_d² alpha' P_c Sigma^-1 P_d alpha + delta_cd 8 q_c / (1 + q_c)²,
-///   volume    H_cd = 2 tau_c² tau_d² tr Sigma^-1 P_c Sigma^-1 P_d + delta_cd 8 q_c / (1 + q_c)² at the mode.
+///   volume    H_cd = 2 tau_c² tau_d² tr Sigma^-1 P_c Sigma^-1 P_d + delta_cd 8 q_c / (1 + q_c)² at the mode. The trace is the
+/// sum of squares of D_c' Sigma^-1 D_d: a class has fewer columns than there are rows.
 /// References: Harville (1977), J. Am. Stat. Assoc. 72, 320-338 (scoring of variance components); Gilmour, Thompson and Cullis
 /// (1995), Biometrics 51, 1440-1450 (steps by the average information).
 class OneLaw {

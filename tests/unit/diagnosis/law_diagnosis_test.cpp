@@ -173,7 +173,7 @@ TEST(LawFrame, AChangeThatTurnsIsAsNearAsOneThatDoesNot) {
     if (f.rows[r].type == diagnosis::RowType::frequency && f.rows[r].mode == first.front().mode)
       frequency.push_back(static_cast<Eigen::Index>(r));
   ASSERT_EQ(frequency.size(), 3U);
-  const Eigen::MatrixXd covariance = system.classes.at(diagnosis::kFirstContrast)(frequency, frequency);
+  const Eigen::MatrixXd covariance = system.classes.at(diagnosis::kFirstContrast).covariance(frequency, frequency);
   EXPECT_NEAR(covariance(0, 0), 0.0, 1e-12);
   EXPECT_NEAR(covariance(2, 2), 1e-4, 1e-9);  // 1 % at the end of the contrast
   EXPECT_NEAR(covariance(1, 1), 0.5e-4, 1e-9);

@@ -37,14 +37,15 @@ struct LawRows {
     const MatrixXd root = draw(n, n) * 0.02;
     system.sigma = root * root.transpose() + 0.04 * MatrixXd::Identity(n, n);
     const MatrixXd one = draw(n, columns) * 0.3, other = draw(n, columns) * 0.3;
-    system.classes = {one * one.transpose(), other * other.transpose()};
+    system.classes = {diagnosis::ErrorColumns(one), diagnosis::ErrorColumns(other)};
     cause = draw(n, 1);
     const MatrixXd lower = system.sigma.llt().matrixL();
     system.residual = lower * draw(n, 1) + first * one * draw(columns, 1) + second * other * draw(columns, 1) + size * cause;
   }
   [[nodiscard]] LawHypothesis none() const { return {system.residual, VectorXd::Zero(1), {}, {}, {}, {{0, 1.0}, {1, 1.0}}}; }
   [[nodiscard]] double dense(const VectorXd& left, double first, double second) const {
-    const MatrixXd sigma = system.sigma + first * first * system.classes[0] + second * second * system.classes[1];
+    const MatrixXd sigma =
+        system.sigma + first * first * system.classes[0].covariance + second * second * system.classes[1].covariance;
     return -0.5 * (left.dot(sigma.inverse() * left) + std::log(sigma.determinant()));
   }
 };
@@ -132,6 +133,16 @@ TEST(OneLaw, LinearMagnitudesAreIntegratedBetweenTheirBounds) {
   const double prior = diagnosis::log_half_t(std::log(found.tau[0]), 1.0) + diagnosis::log_half_t(std::log(found.tau[1]), 1.0);
   // The term 2 pi / range² in the precision is a part in a thousand of it here.
   EXPECT_NEAR(law.log_posterior(linear, found.tau), log_of_the_sum(terms) + prior, 5e-3);
+}
+
+TEST(ErrorColumns, AreNoMoreThanTheRows) {
+  MatrixXd many(3, 7);
+  many << 1, 0, 2, 0, 1, 0, 3, 0, 0, 1, 2, 1, 0, 1, 4, 0, 0, 1, 1, 0, 2;
+  const diagnosis::ErrorColumns found(many);
+  EXPECT_EQ(found.columns.cols(), 3);
+  EXPECT_LT((found.covariance - many * many.transpose()).norm(), 1e-12);
+  EXPECT_LT((found.columns * found.columns.transpose() - found.covariance).norm(), 1e-12 * found.covariance.norm());
+  EXPECT_TRUE(diagnosis::ErrorColumns(MatrixXd::Zero(3, 2)).empty());
 }
 
 TEST(OneLaw, AnAbsentClassIsNotThere) {
