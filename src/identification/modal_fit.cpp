@@ -183,7 +183,7 @@ struct ModeShape {
 ModeShape shape_of(const LinearFit& fit, Index mode, Index n_inputs) {
   MatrixXcd residues(fit.linear.cols() / n_inputs, n_inputs);
   for (Index j = 0; j < fit.linear.cols(); ++j) residues(j / n_inputs, j % n_inputs) = fit.residue(mode, j);
-  const Eigen::BDCSVD<MatrixXcd> svd(residues, Eigen::ComputeThinU | Eigen::ComputeThinV);
+  const Eigen::JacobiSVD<MatrixXcd> svd(residues, Eigen::ComputeThinU | Eigen::ComputeThinV);
   const Eigen::VectorXcd left = svd.matrixU().col(0), turned = normalised_shape(left);
   const std::complex<double> turn = left.dot(turned);
   return {turned, svd.matrixV().col(0) * (turn / std::max(svd.singularValues()[0], 1e-300))};
