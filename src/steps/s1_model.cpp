@@ -28,7 +28,7 @@ Status run(const steps::ModelConfig& config, const dynamics::ReadModel& read, bo
 
   // 2. Its modes.
   dynamics::ModalSolver solver(loaded.system);
-  const dynamics::EigenModes modes = solver.solve_available(loaded.theta, static_cast<int>(config.n_modes));
+  const dynamics::EigenModes modes = solver.solve_available(loaded.theta, config.n_modes);
   const long found = modes.frequency_Hz.size();
   if (config.n_modes != steps::ModelConfig().n_modes || found == 0)
     dynamics::refuse_more_modes_than_there_are(config.n_modes, loaded, modes);
@@ -42,18 +42,18 @@ Status run(const steps::ModelConfig& config, const dynamics::ReadModel& read, bo
   if (model != nullptr) model_io::write_vtu(*model, loaded.system, modes, context.out / "model.vtu");
   steps::write_model_tables(loaded, is_bridge ? steps::PartOf(ponte::part_of) : steps::PartOf(), context.out);
   model_io::save_model(loaded, loaded.theta, context.out / "model");
-  steps::write_exports(loaded, modes, static_cast<int>(config.n_modes), context);
+  steps::write_exports(loaded, modes, config.n_modes, context);
 
   // 4. The same modes on other meshes, which show the discretisation error.
   if (!config.meshes.empty() && is_bridge)
-    steps::write_mesh_convergence(runner::read_study(context.study), config.variant, config.meshes,
-                                  static_cast<int>(config.n_modes), context.out / "mesh_convergence.csv");
+    steps::write_mesh_convergence(runner::read_study(context.study), config.variant, config.meshes, config.n_modes,
+                                  context.out / "mesh_convergence.csv");
   return loaded.state.status.converged ? modes.status : loaded.state.status;
 }
 
 runner::Computation read(const steps::ModelConfig& config, runner::StepContext& context) {
-  const dynamics::ReadModel model = dynamics::with_displacements(steps::load_study_model(context, config.variant),
-                                                                 config.displacements, static_cast<int>(config.load_steps));
+  const dynamics::ReadModel model =
+      dynamics::with_displacements(steps::load_study_model(context, config.variant), config.displacements, config.load_steps);
   const bool is_bridge = !context.model && runner::read_study(context.study).model_generator == "ponte";
   steps::warn_of_channels_off_the_model(context, model);
   if (is_bridge) steps::refuse_unknown_meshes(runner::read_study(context.study), config.variant, config.meshes);

@@ -114,8 +114,7 @@ diagnosis::ReducedModel reduced_for_modes(const diagnosis::DiagnosedModel& model
 /// left out of the search, and the extended model gets the cables (decision 0014). Nothing is changed unless cables explain
 /// more modes, with dampers and all conditions included.
 void swing_stays(const DiagnosisConfig& config, const std::vector<diagnosis::Row>& stay_rows, DiagnosisInputs& inputs) {
-  const diagnosis::BarStaysOptions options{config.least_mac > 0.0 ? config.least_mac : kAlike,
-                                           2 * static_cast<int>(config.modes)};
+  const diagnosis::BarStaysOptions options{config.least_mac > 0.0 ? config.least_mac : kAlike, 2 * config.modes};
   auto found = diagnosis::find_bar_stays(inputs.model->structure(), inputs.features, stay_rows, options);
   if (!found) return;
   const diagnosis::ModesExplained before =
@@ -123,7 +122,7 @@ void swing_stays(const DiagnosisConfig& config, const std::vector<diagnosis::Row
   auto cables = std::make_shared<diagnosis::DiagnosedModel>(*inputs.model);
   cables->loaded = dynamics::from_model(std::move(found->extended));
   const diagnosis::ReducedModel reduced =
-      reduced_for_modes(*cables, std::max(static_cast<int>(config.modes), found->modes_in_basis), found->modes_in_band + 2);
+      reduced_for_modes(*cables, std::max(config.modes, found->modes_in_basis), found->modes_in_band + 2);
   const diagnosis::ModesExplained after = diagnosis::modes_explained(reduced, inputs.features, config.scatter, found->rule);
   if (after.explained <= before.explained) return;
   inputs.bar_stays.emplace(std::move(found->stays), found->log_odds, before, after);
@@ -246,17 +245,16 @@ DiagnosisInputs prepare_diagnosis(const DiagnosisConfig& config, const Diagnosis
   inputs.load_tests = {loaded.source, files.folder / "channels.csv"};
   inputs.model = diagnosis::prepare_model(loaded, files.channels, config.sensor_tolerance_m);
   inputs.structure = inputs.model->structure();
-  const diagnosis::BasisModes basis =
-      diagnosis::modes_of_basis(inputs.structure, inputs.features, static_cast<int>(config.modes));
+  const diagnosis::BasisModes basis = diagnosis::modes_of_basis(inputs.structure, inputs.features, config.modes);
   refuse_endless_basis(basis, loaded, inputs.features, context);
   diagnosis::PlaceOptions place_options;
   place_options.moves = files.moves;
   if (config.zones > 0)
-    place_options.max_zones = static_cast<int>(config.zones);
+    place_options.max_zones = config.zones;
   else
     place_options.zone_spacing_m = basis.eighth_of_wave_m;
   if (config.nodes > 0)
-    place_options.max_nodes = static_cast<int>(config.nodes);
+    place_options.max_nodes = config.nodes;
   else
     place_options.node_spacing_m = basis.eighth_of_wave_m;
   inputs.basis_modes = basis.modes;
@@ -364,7 +362,7 @@ Status run_diagnosis(const DiagnosisConfig& config, const DiagnosisFiles& files,
     return {};
   }
   diagnosis::DiagnoseOptions options;
-  options.most_causes = static_cast<int>(config.most_causes);
+  options.most_causes = config.most_causes;
   options.progress = [&](const char* what, int done, int of) { context.progress(what, done, of); };
   diagnosis::Diagnosis result = diagnosis::diagnose(inference, options, context.seed + 1);
   if (result.before.all.g.size() == 0) return {false, result.message};

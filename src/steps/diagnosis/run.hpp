@@ -19,7 +19,7 @@ struct DiagnosisConfig {
   double least_mac = 0.0;          ///< least MAC of a measured mode with one of the model; others are left out and reported
   diagnosis::RowChoice rows;
   std::vector<std::string> hold_out;  ///< "condition", "condition/mode"; replaces marks and rule
-  long most_causes = diagnosis::DiagnoseOptions{}.most_causes, modes = 24, zones = 0, nodes = 0;
+  int most_causes = diagnosis::DiagnoseOptions{}.most_causes, modes = 24, zones = 0, nodes = 0;
   double sensor_tolerance_m = 0.5;
   std::string stays = "as_modelled";  ///< "as_modelled": stays stay the bars that they are in the model
   diagnosis::ScatterOptions scatter;

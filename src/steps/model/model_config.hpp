@@ -10,9 +10,9 @@ namespace twindeck::steps {
 /// Configuration of s1_model.
 struct ModelConfig {
   std::string variant = "preliminary";
-  long n_modes = 15;
+  int n_modes = 15;
   std::string displacements = "as_model";
-  long load_steps = 1;
+  int load_steps = 1;
   std::vector<std::string> meshes;
 
   io::FieldTable fields() {

@@ -56,7 +56,7 @@ struct ReliabilityConfig {
   std::vector<std::string> models;
   std::string response_model = "A";
   double duration_s = 600.0;
-  long samples = 2000, form_iterations = 200, subset_levels = 20;
+  int samples = 2000, form_iterations = 200, subset_levels = 20;
   double damping_variation = 0.2, level_variation = 0.1, damper_variation = 0.05, turbulence_variation = 0.1,
          corrosion_variation = 0.3;
   std::vector<StatedInput> random;

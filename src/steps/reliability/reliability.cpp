@@ -207,8 +207,8 @@ void add_rare(const ReliabilityConfig& config, const FragilityRow& row, const re
   reliability::FormOptions form_options;
   reliability::SubsetOptions subset_options;
   form_options.seed = subset_options.seed = seed;
-  form_options.iterations = static_cast<int>(config.form_iterations);
-  subset_options.largest_levels = static_cast<int>(config.subset_levels);
+  form_options.iterations = config.form_iterations;
+  subset_options.largest_levels = config.subset_levels;
   const reliability::FormResult points = reliability::form(g, n, form_options);
   const reliability::SubsetResult subset = reliability::subset_simulation(g, n, subset_options);
   for (const Status& status : {points.status, subset.status})
@@ -231,9 +231,9 @@ void add_limit_states(const ReliabilityConfig& config, const Structure& s, doubl
   const auto add = [&](const std::string& name, std::size_t k, double limit, const std::string& place,
                        const std::string& unit) {
     if (limit <= 0.0) return;
-    found.fragility.push_back(
-        {name, config.response_model, s.of, speed, place, limit, std::sqrt(moments.mean[moments.varied[k]].variance), unit,
-         reliability::excursion(moments, k, limit, config.duration_s, static_cast<int>(config.samples), seed)});
+    found.fragility.push_back({name, config.response_model, s.of, speed, place, limit,
+                               std::sqrt(moments.mean[moments.varied[k]].variance), unit,
+                               reliability::excursion(moments, k, limit, config.duration_s, config.samples, seed)});
     if (contains(config.rare, name)) add_rare(config, found.fragility.back(), moments, k, seed, found);
   };
   const auto node = [&](std::size_t k) {
