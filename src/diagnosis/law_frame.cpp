@@ -48,25 +48,17 @@ std::pair<VectorXd, double> open_modes(const FeatureMap& map, const Prediction& 
 
 /// The class of a contrast: changes with independent increments, a Wiener process that starts at zero contrast. It allows
 /// smooth changes and changes of direction. The part common to all conditions belongs to the form error.
-/// @param lasting (n_rows × n_lasting) columns of the errors that change
-ErrorColumns along(const Contrast& contrast, const FeatureSet& features, const std::vector<int>& rows,
-                   const MatrixXd& lasting) {
+/// @param lasting (n_rows × n_rows) covariance of the errors that change
+ErrorColumns along(const Contrast& contrast, const FeatureSet& features, const std::vector<int>& rows, MatrixXd lasting) {
   VectorXd weight(std::ssize(rows));
   for (Index r = 0; r < weight.size(); ++r)
     weight[r] = contrast.weight[features.rows[static_cast<std::size_t>(rows[static_cast<std::size_t>(r)])].condition];
   weight.array() -= std::max(weight.minCoeff(), 0.0);
-  std::vector<MatrixXd> increments;
-  for (const double sign : {-1.0, 1.0}) {
-    const VectorXd way = (sign * weight).cwiseMax(0.0);
-    double before = 0.0;
-    for (const double level : std::set<double>(way.begin(), way.end())) {
-      if (level > 0.0)
-        increments.emplace_back((std::sqrt(level - before) * (way.array() >= level).cast<double>()).matrix().asDiagonal() *
-                                lasting);
-      before = level;
-    }
-  }
-  return ErrorColumns(beside(increments, weight.size()));
+  if (weight.isZero(0.0)) return {};
+  for (Index i = 0; i < lasting.rows(); ++i)
+    for (Index j = 0; j < lasting.cols(); ++j)
+      lasting(i, j) *= weight[i] * weight[j] > 0.0 ? std::min(std::abs(weight[i]), std::abs(weight[j])) : 0.0;
+  return ErrorColumns::of_covariance(std::move(lasting));
 }
 
 }  // namespace
@@ -114,10 +106,12 @@ FitSystem law_system(const Inference& plain, const Fit& fit, const std::vector<C
     const auto position = static_cast<std::size_t>(gains[static_cast<std::size_t>(k)]);
     gain.col(k) = kUnitOfClasses / map.nuisances()[position].deviation * j.col(gains[static_cast<std::size_t>(k)]);
   }
-  const MatrixXd frequency = kUnitOfClasses * form.frequency(rows, Eigen::all),
-                 shape = kUnitOfClasses * form.shape(rows, Eigen::all), kinks = kUnitOfClasses * form.kinks(rows, Eigen::all);
-  for (const MatrixXd& columns : {frequency, shape, kinks, gain}) out.classes.emplace_back(columns);
-  const MatrixXd lasting = beside({frequency, shape, kinks}, std::ssize(rows));
+  for (const MatrixXd* columns : {&form.frequency, &form.shape, &form.kinks})
+    out.classes.push_back(ErrorColumns::of_columns(kUnitOfClasses * (*columns)(rows, Eigen::all)));
+  MatrixXd lasting = MatrixXd::Zero(std::ssize(rows), std::ssize(rows));
+  for (const ErrorColumns& c : out.classes)
+    if (!c.empty()) lasting += c.covariance;
+  out.classes.push_back(ErrorColumns::of_columns(std::move(gain)));
   for (const Contrast& contrast : contrasts) out.classes.push_back(along(contrast, map.features(), rows, lasting));
   VectorXd x = fit.map.x;
   x.tail(asked).setZero();

@@ -3,7 +3,9 @@
 #include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
+#include <utility>
 
 #include "linalg/dense.hpp"
 
@@ -18,8 +20,7 @@ using Eigen::VectorXd;
 constexpr double kRidge = 0.3;        // part of H added to a step: a class that the data do not determine moves slowly
 constexpr double kLongestStep = 1.5;  // of ln tau
 constexpr int kIterations = 25, kHalvings = 5;
-constexpr double kRounding = 1e-15;  // [-] of a covariance's trace
-constexpr double kSettled = 0.02;    // [nats] expected gain of a further step below which the search ends
+constexpr double kSettled = 0.02;  // [nats] expected gain of a further step below which the search ends
 
 double log_of_sum(const VectorXd& v, VectorXd& weight) {
   const double top = v.maxCoeff();
@@ -47,16 +48,24 @@ double log_width(const MatrixXd& precision, const VectorXd& range) {
       0.0);
 }
 
-ErrorColumns::ErrorColumns(const MatrixXd& of) {
-  std::vector<Index> kept;
-  for (Index j = 0; j < of.cols(); ++j)
-    if (!of.col(j).isZero(0.0)) kept.push_back(j);
-  if (kept.empty()) return;
-  columns = of(Eigen::all, kept);
-  covariance = linalg::square(columns);
-  if (columns.cols() <= columns.rows() || !covariance.allFinite()) return;
-  const linalg::LeadingEigenpairs pairs = linalg::eigenpairs_above(covariance, kRounding * covariance.trace());
-  columns = pairs.vectors * pairs.values.cwiseSqrt().asDiagonal();
+ErrorColumns ErrorColumns::of_covariance(MatrixXd covariance) {
+  std::vector<Index> rows;  // that have errors
+  for (Index r = 0; r < covariance.rows(); ++r)
+    if (covariance(r, r) != 0.0) rows.push_back(r);
+  const Index n = std::ssize(rows);
+  const double rounding = std::numeric_limits<double>::epsilon() * covariance.trace();
+  const MatrixXd lower =
+      linalg::cholesky_factor(covariance(rows, rows) + rounding * static_cast<double>(n) * MatrixXd::Identity(n, n));
+  MatrixXd columns = MatrixXd::Zero(covariance.rows(), n);
+  if (lower.size() > 0) columns(rows, Eigen::all) = lower;
+  return {std::move(covariance), std::move(columns)};
+}
+
+ErrorColumns ErrorColumns::of_columns(MatrixXd columns) {
+  if (columns.cols() == 0) return {};
+  if (columns.cols() > columns.rows()) return of_covariance(linalg::square(columns));
+  MatrixXd covariance = linalg::square(columns);
+  return {std::move(covariance), std::move(columns)};
 }
 
 MatrixXd covariance_at(const LawSystem& system, const VectorXd& tau) {

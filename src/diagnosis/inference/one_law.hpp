@@ -8,12 +8,14 @@ namespace twindeck::diagnosis {
 
 /// A class of errors of unit scale.
 struct ErrorColumns {
-  Eigen::MatrixXd columns;     ///< D (n_rows × n_columns), no more columns than rows; empty for a class without columns
-  Eigen::MatrixXd covariance;  ///< P = D D' (n_rows × n_rows), or empty
+  Eigen::MatrixXd covariance;  ///< P = D D' (n_rows × n_rows); empty for a class without errors
+  Eigen::MatrixXd columns;     ///< D (n_rows × n_columns), no more columns than rows
 
-  /// @param of (n_rows × n) columns with this covariance; there may be more of them than rows
-  explicit ErrorColumns(const Eigen::MatrixXd& of);
-  [[nodiscard]] bool empty() const { return columns.cols() == 0; }
+  /// @param covariance  positive semidefinite, or empty
+  static ErrorColumns of_covariance(Eigen::MatrixXd covariance);
+  /// @param columns (n_rows × n_columns), or none
+  static ErrorColumns of_columns(Eigen::MatrixXd columns);
+  [[nodiscard]] bool empty() const { return covariance.size() == 0; }
 };
 
 /// The law of a residual. Under a hypothesis h

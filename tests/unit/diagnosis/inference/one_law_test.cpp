@@ -12,6 +12,7 @@
 namespace twindeck::tests {
 namespace {
 
+using diagnosis::ErrorColumns;
 using diagnosis::LawEvidence;
 using diagnosis::LawHypothesis;
 using diagnosis::LawSystem;
@@ -37,7 +38,7 @@ struct LawRows {
     const MatrixXd root = draw(n, n) * 0.02;
     system.sigma = root * root.transpose() + 0.04 * MatrixXd::Identity(n, n);
     const MatrixXd one = draw(n, columns) * 0.3, other = draw(n, columns) * 0.3;
-    system.classes = {diagnosis::ErrorColumns(one), diagnosis::ErrorColumns(other)};
+    system.classes = {ErrorColumns::of_columns(one), ErrorColumns::of_columns(other)};
     cause = draw(n, 1);
     const MatrixXd lower = system.sigma.llt().matrixL();
     system.residual = lower * draw(n, 1) + first * one * draw(columns, 1) + second * other * draw(columns, 1) + size * cause;
@@ -138,11 +139,19 @@ TEST(OneLaw, LinearMagnitudesAreIntegratedBetweenTheirBounds) {
 TEST(ErrorColumns, AreNoMoreThanTheRows) {
   MatrixXd many(3, 7);
   many << 1, 0, 2, 0, 1, 0, 3, 0, 0, 1, 2, 1, 0, 1, 4, 0, 0, 1, 1, 0, 2;
-  const diagnosis::ErrorColumns found(many);
+  const ErrorColumns found = ErrorColumns::of_columns(many);
   EXPECT_EQ(found.columns.cols(), 3);
   EXPECT_LT((found.covariance - many * many.transpose()).norm(), 1e-12);
+  MatrixXd none_of_one_row = MatrixXd::Zero(3, 3);
+  none_of_one_row(0, 0) = none_of_one_row(2, 2) = none_of_one_row(0, 2) = none_of_one_row(2, 0) = 2.0;  // of rank one
+  const ErrorColumns flat = ErrorColumns::of_covariance(none_of_one_row);
+  EXPECT_EQ(flat.columns.row(1).norm(), 0.0);
+  EXPECT_LT((flat.columns * flat.columns.transpose() - none_of_one_row).norm(), 1e-12);
   EXPECT_LT((found.columns * found.columns.transpose() - found.covariance).norm(), 1e-12 * found.covariance.norm());
-  EXPECT_TRUE(diagnosis::ErrorColumns(MatrixXd::Zero(3, 2)).empty());
+  EXPECT_TRUE(ErrorColumns::of_columns(MatrixXd(3, 0)).empty());
+  const ErrorColumns nothing = ErrorColumns::of_covariance(MatrixXd::Zero(3, 3));
+  EXPECT_EQ(nothing.columns.cols(), 0);
+  EXPECT_EQ(nothing.covariance.norm(), 0.0);
 }
 
 TEST(OneLaw, AnAbsentClassIsNotThere) {
