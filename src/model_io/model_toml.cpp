@@ -243,7 +243,6 @@ void read_model_toml(const std::filesystem::path& file, fe::Model& model,
   for (std::size_t i = 0; i < model.nodes.size(); ++i) index.nodes.emplace(model.nodes[i].id, static_cast<int>(i));
   ModelEntry entry;
   for (std::size_t i = 0; i < 3; ++i) entry.gravity_direction[i] = model.gravity_direction[static_cast<int>(i)];
-  model.prestress.load_steps = 1;                          // unless the file says otherwise, whatever a deck has
   const std::string own_case = model.prestress.load_case;  // of a deck, whose loads are read already
   io::FieldTable table = entry.fields(model);
   if (add_keys) add_keys(table);

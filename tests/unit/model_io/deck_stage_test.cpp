@@ -60,6 +60,17 @@ fe::Model inp_bar(const std::string& ends, const std::string& steps, const std::
 const std::string modes = "*STEP, PERTURBATION\n*FREQUENCY\n4\n*END STEP\n";
 const std::string plain_modes = "*STEP\n*FREQUENCY\n4\n*END STEP\n";
 
+TEST(DeckStage, KeysBesideADeckLeaveItsLoadStepsAlone) {
+  const TestFolder folder;
+  folder.write("bar.inp", inp_deck("1, 1\n", "*STEP, NLGEOM\n*STATIC\n*CLOAD\n11, 1, -1.\n*END STEP\n" + plain_modes, ""));
+  const int of_the_deck = read_inp(folder.path() / "bar.inp").model.prestress.load_steps;
+  EXPECT_GT(of_the_deck, 1);
+  folder.write("bar.toml", "title = \"bar\"\n");
+  EXPECT_EQ(read_inp(folder.path() / "bar.inp").model.prestress.load_steps, of_the_deck);
+  folder.write("bar.toml", "[prestress]\nload_steps = 3\n");
+  EXPECT_EQ(read_inp(folder.path() / "bar.inp").model.prestress.load_steps, 3);
+}
+
 TEST(DeckStage, AbaqusAndCalculixForcesMovementsTemperaturesStresses) {
   const std::string force = fmt::format("*CLOAD\n11, 1, {:.8E}\n", -half_euler);
   expect_bar("Abaqus, CalculiX", "force_before_perturbation",
