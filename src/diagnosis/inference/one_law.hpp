@@ -24,7 +24,7 @@ struct ErrorColumns {
 /// half-t prior of three degrees of freedom. A hypothesis states which classes are active.
 struct LawSystem {
   Eigen::MatrixXd sigma;              ///< Sigma_0 (n_rows × n_rows)
-  std::vector<ErrorColumns> classes;  ///< D_c
+  std::vector<ErrorColumns> classes;  ///< D_c and P_c
   Eigen::VectorXd residual;           ///< r (n_rows)
   Eigen::MatrixXd signatures;         ///< (n_rows × n_signatures) change of the rows by each cause
   double log_prior = 0.0;             ///< ln prior of the modes that the system holds for none of the model's
@@ -71,7 +71,7 @@ struct LawEvidence {
 ///   gradient  tau_c² (alpha' P_c alpha - tr Sigma^-1 P_c) + 1 - 4 q_c / (1 + q_c),
 ///   steps     H_cd = 2 tau_c² tau_d² alpha' P_c Sigma^-1 P_d alpha + delta_cd 8 q_c / (1 + q_c)²,
 ///   volume    H_cd = 2 tau_c² tau_d² tr Sigma^-1 P_c Sigma^-1 P_d + delta_cd 8 q_c / (1 + q_c)² at the mode. The trace is the
-/// sum of squares of D_c' Sigma^-1 D_d: a class has fewer columns than there are rows.
+/// sum of squares of D_c' Sigma^-1 D_d.
 /// References: Harville (1977), J. Am. Stat. Assoc. 72, 320-338 (scoring of variance components); Gilmour, Thompson and Cullis
 /// (1995), Biometrics 51, 1440-1450 (steps by the average information).
 class OneLaw {
