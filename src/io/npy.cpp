@@ -61,7 +61,8 @@ std::string_view value_of_key(std::string_view header, const std::string& key) {
   return rest.starts_with(':') ? without_blanks(rest.substr(1)) : std::string_view{};
 }
 
-/// "(12, 3)" or "(12,)" as numbers; empty for any other number of dimensions or a size that no file can have.
+/// "(12, 3)" or "(12,)" as numbers, "(1, 12, 3)" without its dimension of one; empty for any other number of dimensions or a
+/// size that no file can have.
 std::vector<std::uintmax_t> shape_of(std::string_view text) {
   std::vector<std::uintmax_t> shape;
   const std::size_t close = text.find(')');
@@ -72,12 +73,14 @@ std::vector<std::uintmax_t> shape_of(std::string_view text) {
     const std::string_view cell = without_blanks(text.substr(0, comma));
     std::uintmax_t size = 0;
     const auto [end, error] = std::from_chars(cell.data(), cell.data() + cell.size(), size);
-    if (error != std::errc() || end != cell.data() + cell.size() || shape.size() == 2) return {};
+    if (error != std::errc() || end != cell.data() + cell.size()) return {};
     if (size > static_cast<std::uintmax_t>(std::numeric_limits<Index>::max())) return {};
     shape.push_back(size);
     text = text.substr(std::min(comma + 1, text.size()));
   }
-  return shape;
+  for (std::size_t d = shape.size(); d-- > 0 && shape.size() > 2;)
+    if (shape[d] == 1) shape.erase(shape.begin() + static_cast<std::ptrdiff_t>(d));
+  return shape.size() > 2 ? std::vector<std::uintmax_t>{} : shape;
 }
 
 Header parse(const std::string& text, const fs::path& file) {

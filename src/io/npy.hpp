@@ -18,8 +18,8 @@ using BlockVisitor = std::function<void(Eigen::Index first_row, Eigen::Index fir
 std::pair<Eigen::Index, Eigen::Index> visit_npy(const std::filesystem::path& file, const BlockVisitor& visit);
 
 /// Reads an array of NumPy's NPY format, versions 1 to 3: float64, float32, int16 or int32, little-endian, one or two
-/// dimensions, C or Fortran order. A one-dimensional array becomes a single column. Values may be NaN. Memory: the matrix and
-/// one megabyte.
+/// dimensions beside those of one, C or Fortran order. A one-dimensional array becomes a single column. Values may be NaN.
+/// Memory: the matrix and one megabyte.
 /// @return (rows × columns) as NumPy's shape has them
 /// @throws InputError  for a missing or truncated file, another type, endianness or number of dimensions
 /// Reference: NumPy Enhancement Proposal 1, "A simple file format for NumPy arrays".

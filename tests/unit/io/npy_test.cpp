@@ -1,6 +1,7 @@
 // Oracle: the NPY format (NEP 1), with files put together byte by byte as NumPy writes them; a round trip keeps every bit.
 #include "io/npy.hpp"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 #include <sys/stat.h>
 
@@ -44,6 +45,12 @@ TEST_F(Npy, ReadsSinglePrecisionAndFortranOrder) {
   const auto v = write("v.npy", file_of<double>("{'descr': '<f8', 'fortran_order': False, 'shape': (4,), }", {1, 2, 3, 4}));
   const Eigen::MatrixXd expected = (Eigen::MatrixXd(2, 3) << 1, 2, 3, 4, 5, 6).finished();
   EXPECT_EQ(read_npy(c), expected);
+  for (const char* shape : {"(1, 2, 3)", "(2, 1, 3)", "(2, 3, 1, 1)"})  // a dimension of one holds nothing
+    EXPECT_EQ(
+        read_npy(write("s.npy", file_of<float>(fmt::format("{{'descr': '<f4', 'fortran_order': False, 'shape': {}, }}", shape),
+                                               {1, 2, 3, 4, 5, 6}))),
+        expected)
+        << shape;
   EXPECT_EQ(read_npy(f), expected);
   EXPECT_EQ(read_npy(v), Eigen::VectorXd::LinSpaced(4, 1, 4));
 }
@@ -54,7 +61,8 @@ TEST_F(Npy, RefusesWhatItCannotRead) {
   const auto ints = write("i.npy", file_of<std::int64_t>("{'descr': '<i8', 'fortran_order': False, 'shape': (1,), }", {1}));
   EXPECT_NE(refusal([&] { (void)read_npy(ints); }).find("holds type '<i8', expected '<f8', '<f4', '<i2' or '<i4'"),
             std::string::npos);
-  const auto cube = write("3.npy", file_of<double>("{'descr': '<f8', 'fortran_order': False, 'shape': (1, 1, 1), }", {1}));
+  const auto cube = write(
+      "3.npy", file_of<double>("{'descr': '<f8', 'fortran_order': False, 'shape': (2, 1, 2, 2), }", {1, 2, 3, 4, 5, 6, 7, 8}));
   EXPECT_NE(refusal([&] { (void)read_npy(cube); }).find("one or two dimensions"), std::string::npos);
   const auto cut = write("s.npy", file_of<double>("{'descr': '<f8', 'fortran_order': False, 'shape': (4, 1), }", {1, 2, 3}));
   EXPECT_NE(refusal([&] { (void)read_npy(cut); }).find("holds 24 bytes of data, expected 32 for 4 x 1 values"),
