@@ -23,7 +23,15 @@ constexpr std::size_t kWidest = 64;   ///< largest number of stamps that the env
 constexpr std::size_t kStretch = 32;  ///< stamps of a stretch; gaps in half of them mean another rate
 constexpr double kEven = 1.0;         ///< [samples] most scatter of even stamps about a line
 constexpr double kNone = std::numeric_limits<double>::infinity();
-constexpr double kSharesOfADay = 0.02;  ///< of a day: a step back from its last to its first 2 % is midnight
+constexpr double kSharesOfADay = 0.02;  ///< of a period: a step back from its last to its first 2 % begins it anew
+/// Where clocks begin anew: at midnight in s, ms, us and days; where 32 bits of ticks are full.
+constexpr std::array<double, 5> kPeriods = {86400.0, 86400e3, 86400e6, 1.0, 4294967296.0};
+
+/// Seconds since midnight of a time of day as one number: 235959.5 gives 86399.5.
+double seconds_of_digits(double hhmmss) {
+  const double hours_and_minutes = std::floor(hhmmss / 100.0);
+  return hhmmss - 40.0 * hours_and_minutes - 2400.0 * std::floor(hours_and_minutes / 100.0);
+}
 
 double quantile(std::vector<double> values, double share) {
   if (values.empty()) return 0.0;
@@ -334,24 +342,45 @@ Index RecordClock::repeated() const {
   return sum;
 }
 
-void StampedRows::add(double stamp) {
+void StampedRows::take_as_digits(double given) {
+  constexpr double longest = 1.5;  // [s] between stamps; 1 if they are whole
+  const double rise = given - last_, before = last_ - stamps_[stamps_.size() - 2].time;
+  for (const double unit : {1.0, 1e3}) {
+    const double time = seconds_of_digits(given / unit) - seconds_of_digits(last_ / unit);
+    const bool turns = rise > 40.0 * unit || rise < -235e3 * unit;  // of a minute, or at midnight
+    if (!turns || std::fmod(last_ / unit, 100.0) >= 60.0 || before > longest * unit ||
+        std::fmod(time + 86400.0, 86400.0) > longest)
+      continue;
+    digits_ = unit;
+    for (Stamp& stamp : stamps_) stamp.time = unit * seconds_of_digits(stamp.time / unit);
+    last_ = stamps_.back().time;
+    return;
+  }
+}
+
+void StampedRows::add(double given) {
   const Index row = row_++;
-  if (!std::isfinite(stamp)) {
+  if (!std::isfinite(given)) {
     ++without_;
     return;
   }
-  stamp += midnight_;
+  if (digits_ == 0.0 && begun_ == 0.0 && stamps_.size() > 1) take_as_digits(given);
+  double stamp = begun_ + (digits_ > 0.0 ? digits_ * seconds_of_digits(given / digits_) : given);
   if (!stamps_.empty()) {
-    for (const double day : {86400.0, 86400e3, 86400e6}) {
-      const bool dated = day == 86400.0 && last_ > 1e8 && last_ < 1e11;  // [s] since 1970
-      const double days = dated ? std::ceil((last_ - midnight_) / day) - 1.0 : 0.0, begin = midnight_ + days * day,
-                   near = kSharesOfADay * day;
-      const bool passed = last_ <= begin + day && last_ > begin + day - near && stamp >= begin && stamp < begin + near &&
+    const double rise = (last_ - stamps_.front().time) / static_cast<double>(std::max<Index>(row - 1, 1));
+    for (const double period : kPeriods) {
+      if ((period_ > 0.0 && period != period_) || (period == 1.0 && likely_unit_s(rise) != 86400.0)) continue;
+      const bool dated = period == 86400.0 && last_ > 1e8 && last_ < 1e11;  // [s] since 1970
+      const double days = dated ? std::ceil((last_ - begun_) / period) - 1.0 : 0.0, begin = begun_ + days * period,
+                   near = kSharesOfADay * period;
+      const bool passed = last_ <= begin + period && last_ > begin + period - near && stamp >= begin && stamp < begin + near &&
                           stamps_.front().time >= 0.0;
-      const bool date_follows = midnight_ >= day && stamp - day >= last_ && stamp - day < last_ + near;  // some rows late
+      const bool date_follows =
+          period_ > 0.0 && begun_ >= period && stamp - period >= last_ && stamp - period < last_ + near;  // some rows late
       if (!passed && !date_follows) continue;
-      midnight_ += passed ? day : -day;
-      stamp += passed ? day : -day;
+      period_ = period;
+      begun_ += passed ? period : -period;
+      stamp += passed ? period : -period;
       break;
     }
     counts_ = counts_ && std::abs(stamp - last_ - 1.0) <= std::min(1e-3, 2e-7 * std::abs(stamp));  // of single precision

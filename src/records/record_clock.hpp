@@ -40,7 +40,8 @@ struct RecordClock {
 /// stamps, 1.5 samples are needed, because a second may hold one row more or less; or 1.5 packets, if the rows of a stamp vary
 /// by packets. Rate and deviation come from a robust line (Tukey's biweight) through t against k + m; the deviation is the
 /// larger one of white residuals and of their means in ten blocks, and at least that of the unknown position of a row in a
-/// shared stamp. A step back from the end of a day to its begin is midnight, with a date too. Memory: sixteen bytes a stamp.
+/// shared stamp. A step back from the end of a day to its begin is midnight, with a date too, and one from the end of 32 bits
+/// of ticks their overflow; a time of day as one number (hhmmss) goes on at 59. Memory: sixteen bytes a stamp.
 class StampedRows {
  public:
   /// The next row's stamp in any unit; NaN where it has none.
@@ -74,9 +75,13 @@ class StampedRows {
   /// Robust scatter about the line [samples]; none if most rows lie about no line.
   /// @param most_set  number of rows at which the clock may be set back @param of_one_rate  not in two parts
   [[nodiscard]] std::optional<double> samples_about_a_line(Eigen::Index most_set, bool of_one_rate = false) const;
+  /// Takes all stamps as times of day (hhmmss, hhmmssfff) if the number jumps where a minute ends, but that time does not.
+  void take_as_digits(double given);
   std::vector<Stamp> stamps_;  ///< the first row of each
   Eigen::Index row_ = 0, without_ = 0, falls_ = 0;
-  double midnight_ = 0.0, last_ = 0.0;
+  double begun_ = 0.0, last_ = 0.0;  ///< sum of the periods that are over; last stamp
+  double period_ = 0.0;              ///< of the clock, once it has begun anew
+  double digits_ = 0.0;              ///< of one second in stamps hhmmss (1) and hhmmssfff (1000); 0 for other stamps
   bool counts_ = true;
 };
 

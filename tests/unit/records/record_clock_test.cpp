@@ -1,6 +1,7 @@
 // Oracle: stamps made here from a known rate, with the gaps, repeats and lateness that went into them.
 #include "records/record_clock.hpp"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -135,6 +136,33 @@ TEST(RecordClock, MidnightIsNoStepBack) {
     expect_rate(stamped(2500, [&](int i) { return unit * std::fmod(86390.0 + i / 100.0, 86400.0); }).clock(1.0 / unit), 100.0,
                 "midnight");
   EXPECT_EQ(stamped(2500, [](int i) { return std::fmod(36000.0 + i / 100.0, 36010.0); }).clock(1.0).gaps.size(), 1U);
+  expect_rate(stamped(2500, [](int i) { return std::fmod(0.9999 + i / 8640000.0, 1.0); }).clock(0.0), 100.0, "shares of a day");
+  const RecordClock bursts = stamped(2500, [](int i) { return i % 1000 / 1000.0; }).clock(1.0);  // of one second each
+  EXPECT_TRUE(!bursts.gaps.empty() || bursts.steps_back >= 0);
+}
+
+TEST(RecordClock, AFullCounterOf32BitsBeginsAnew) {
+  for (const double ticks : {1e3, 1e6})
+    expect_rate(stamped(2500, [&](int i) { return std::fmod(4294967296.0 - 5.0 * ticks + i * ticks / 100.0, 4294967296.0); })
+                    .clock(1.0 / ticks),
+                100.0, "ticks");
+}
+
+TEST(RecordClock, TimesOfDayAsOneNumber) {
+  for (const double unit : {1.0, 1e3}) {  // hhmmss, hhmmssfff
+    for (const int first : {86390, 35995, 36054, 36059}) {
+      for (const int rows : {1, 100}) {  // to a second
+        const auto digits = [&](int i) {
+          const int s = (first + i / 100) % 86400;
+          return unit * (s / 3600 * 10000 + s / 60 % 60 * 100 + s % 60 + (rows > 1 ? 0.0 : i % 100 / 100.0));
+        };
+        expect_rate(stamped(15000, digits).clock(1.0 / unit), 100.0, fmt::format("hhmmss from {}, {}", first, rows).c_str());
+      }
+    }
+  }
+  // A clock in seconds that stood for 40 s, and one in ms whose step is 41.
+  EXPECT_EQ(stamped(2500, [](int i) { return 90.0 + i / 100.0 + (i < 950 ? 0.0 : 40.0); }).clock(1.0).missing(), 4000);
+  expect_rate(stamped(2500, [](int i) { return 18.0 + 41.0 * i; }).clock(1e-3), 1e3 / 41.0, "ms");
 }
 
 TEST(RecordClock, AnotherRateIsToldFromGaps) {
