@@ -8,6 +8,7 @@
 #include <limits>
 #include <optional>
 #include <set>
+#include <span>
 
 #include "core/statistics.hpp"
 #include "dynamics/doubtful_mesh.hpp"
@@ -35,6 +36,8 @@ constexpr double slenderest_member = 2000.0;     ///< [-] median of element leng
 constexpr Band structure_Hz{0.01, 10000.0};      ///< first mode: the longest suspension bridges have 0.03 to 0.05 Hz
 /// Tungsten, the densest structural material, lies below. A larger number is a weight per volume, or kilograms among tonnes.
 constexpr double densest_kg_m3 = 23000.0;
+/// What is denser than lead is faster than gold, with 2000 m/s. A slower one has a weight per volume.
+constexpr double denser_than_lead_kg_m3 = 12000.0, slower_than_gold_m_s = 1900.0;
 /// Timber weighs 3.4 to 9.8 kN/m3 and has a modulus of 7 to 20 GPa; lead, which is as slow with that density, weighs more.
 constexpr Band timber_weight_N_m3{3400.0, 9810.0};
 constexpr Band timber_modulus_Pa{7e9, 20e9};
@@ -67,15 +70,16 @@ std::optional<std::string> density_slip(const fe::Material& m, double speed) {
 struct KnownMaterial {
   double density_kg_m3, speed_m_s;
 };
-constexpr std::array<KnownMaterial, 4> known_materials = {
-    {{7850.0, 5170.0}, {2450.0, 3600.0}, {2700.0, 5080.0}, {480.0, 4800.0}}};
+constexpr std::array<KnownMaterial, 6> known_materials = {
+    {{7850.0, 5170.0}, {2450.0, 3600.0}, {2700.0, 5080.0}, {480.0, 4800.0}, {750.0, 4200.0}, {1900.0, 1500.0}}};
+constexpr std::size_t known_in_systems = 4;  ///< in kN and m, hardwood and masonry have the numbers of foams in SI units
 
 constexpr double alike_in_system = 0.25;  ///< [-] of ln; foams, which have such numbers in SI units, are 0.4 off
 
 /// [-] of ln: least distance to a known material in density and speed together.
-double off_known(double density_kg_m3, double speed_m_s) {
+double off_known(double density_kg_m3, double speed_m_s, std::size_t among = known_in_systems) {
   double least = std::numeric_limits<double>::infinity();
-  for (const KnownMaterial& known : known_materials)
+  for (const KnownMaterial& known : std::span(known_materials).first(among))
     least = std::min(least, std::hypot(std::log(density_kg_m3 / known.density_kg_m3), std::log(speed_m_s / known.speed_m_s)));
   return least;
 }
@@ -132,13 +136,16 @@ constexpr std::array<WeightUnit, 13> weight_units = {
 /// A density that is a weight per volume, or in another unit of mass: in kg/m3 the material is like a known one.
 std::optional<std::string> weight_slip(const fe::Material& m, double speed) {
   const bool timber = timber_weight_N_m3.holds(m.density_kg_m3) && timber_modulus_Pa.holds(m.youngs_modulus_Pa);
-  const bool heavy = m.density_kg_m3 >= densest_kg_m3 || timber;
+  const bool slow = m.density_kg_m3 > denser_than_lead_kg_m3 && speed < slower_than_gold_m_s;
+  const bool heavy = m.density_kg_m3 >= densest_kg_m3 || slow || timber;
   const WeightUnit* best = nullptr;
-  double nearest = 0.5;
+  double nearest = 0.4;  // kinds of one material; concrete with all its deck's mass is 0.5 off, divided by 9.81
   for (const WeightUnit& unit : weight_units) {
     const double density = m.density_kg_m3 * unit.density_kg_m3;
-    const double off = off_known(density, std::sqrt(m.youngs_modulus_Pa * unit.modulus_Pa / density));
-    if (*unit.system == '\0' ? heavy && off < nearest : best == nullptr && off <= alike_in_system) nearest = off, best = &unit;
+    const bool among_si = *unit.system == '\0';
+    const double off = off_known(density, std::sqrt(m.youngs_modulus_Pa * unit.modulus_Pa / density),
+                                 among_si ? known_materials.size() : known_in_systems);
+    if (among_si ? heavy && off < nearest : best == nullptr && off <= alike_in_system) nearest = off, best = &unit;
   }
   if (best == nullptr) return std::nullopt;
   if (*best->system != '\0' && *best->divisor == '\0')

@@ -39,9 +39,9 @@ void expect_slip(const fe::Model& model, const std::string& said) {
 }
 
 TEST(UnitSlips, SoundMaterialsPass) {
-  const std::vector<std::pair<double, double>> materials = {{210e9, 7850.0}, {30e9, 2500.0}, {70e9, 2700.0}, {11e9, 450.0},
-                                                            {36e9, 16000.0}, {3e6, 1100.0},  {50e6, 1800.0}, {16e9, 11340.0},
-                                                            {1e15, 7850.0},  {210e9, 0.0},   {140e9, 1600.0}};
+  const std::vector<std::pair<double, double>> materials = {
+      {210e9, 7850.0}, {30e9, 2500.0}, {70e9, 2700.0}, {11e9, 450.0},   {36e9, 16000.0},  {3e6, 1100.0},   {50e6, 1800.0},
+      {16e9, 11340.0}, {1e15, 7850.0}, {210e9, 0.0},   {140e9, 1600.0}, {400e9, 19300.0}, {79e9, 19300.0}, {190e9, 19050.0}};
   for (const auto& [modulus, density] : materials) {
     fe::Model model = beam();
     model.materials[0].youngs_modulus_Pa = modulus;
@@ -107,8 +107,10 @@ TEST(UnitSlips, DensityThatIsAWeight) {
   fe::Model model = beam();
   for (const auto& [modulus, density, said] :
        {std::tuple(210e9, 77000.0, "N/m3"), std::tuple(33e9, 25000.0, "N/m3"), std::tuple(70e9, 26500.0, "N/m3"),
-        std::tuple(11e9, 5000.0, "N/m3"), std::tuple(200e9, 3.02e6, "WTMASS"), std::tuple(210e9, 7.7e7, "N/mm3"),
-        std::tuple(210e9, 7.85e6, "tonnes"), std::tuple(2.0e11, 490.0 * 515.379, "lbf/ft3 or kip/ft3 (divide by 32.174)"),
+        std::tuple(11e9, 5000.0, "N/m3"), std::tuple(15e9, 8000.0, "N/m3"), std::tuple(30e9, 22500.0, "N/m3"),
+        std::tuple(30e9, 17000.0, "N/m3"), std::tuple(4e9, 18000.0, "N/m3"), std::tuple(200e9, 3.02e6, "WTMASS"),
+        std::tuple(210e9, 7.7e7, "N/mm3"), std::tuple(210e9, 7.85e6, "tonnes"),
+        std::tuple(2.0e11, 490.0 * 515.379, "lbf/ft3 or kip/ft3 (divide by 32.174)"),
         std::tuple(2.76e10, 150.0 * 515.379, "lbf/ft3")}) {
     model.materials[0].youngs_modulus_Pa = modulus;
     model.materials[0].density_kg_m3 = density;
@@ -142,7 +144,7 @@ TEST(UnitSlips, WeightsInADeckOfOtherUnits) {
                                       : "are the numbers in N and m, with densities in kg/m3? Frequencies hold");
     }
   // Foams.
-  for (const auto& [modulus, density] : {std::pair(9e7, 80.0), std::pair(2e7, 35.0)}) {
+  for (const auto& [modulus, density] : {std::pair(9e7, 80.0), std::pair(2e7, 35.0), std::pair(4.2e6, 18.5)}) {
     model.materials[0] = {"m", modulus, modulus / 2.6, 0.3, density};
     EXPECT_TRUE(unit_slips(model).empty()) << modulus << " " << density;
   }
