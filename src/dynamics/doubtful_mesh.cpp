@@ -116,12 +116,16 @@ std::vector<std::string> loose_pairs(const fe::Model& model) {
 }
 
 std::vector<std::string> doubled_elements(const fe::Model& model) {
-  std::map<std::tuple<fe::ElementType, int, int, std::vector<int>>, long> first;
+  std::map<std::tuple<fe::ElementType, int, int, std::vector<int>, std::vector<double>>, long> first;
   std::vector<std::string> pairs;
   for (const fe::Element& element : model.elements) {
     std::vector<int> nodes = element.nodes;
     std::sort(nodes.begin(), nodes.end());
-    const auto [at, is_new] = first.emplace(std::tuple(element.type, element.material, element.section, nodes), element.id);
+    std::vector<double> offsets;
+    for (const bool end : {nodes != element.nodes, nodes == element.nodes})
+      offsets.insert(offsets.end(), element.offset_m[end].begin(), element.offset_m[end].end());
+    const auto [at, is_new] =
+        first.emplace(std::tuple(element.type, element.material, element.section, nodes, offsets), element.id);
     if (!is_new) pairs.push_back(fmt::format("{} and {}", at->second, element.id));
   }
   return pairs;
@@ -158,9 +162,10 @@ std::vector<std::string> doubtful_mesh(const fe::Model& model) {
         listed(pairs)));
   }
   if (const auto pairs = doubled_elements(model); !pairs.empty()) {
-    lines.push_back(fmt::format(
-        "elements {} are the same (type, nodes, material and section): stiffness and mass count twice; remove one of each pair",
-        listed(pairs)));
+    lines.push_back(
+        fmt::format("elements {} are the same (type, nodes, offsets, material and section): stiffness and mass count twice; "
+                    "remove one of each pair",
+                    listed(pairs)));
   }
   return lines;
 }

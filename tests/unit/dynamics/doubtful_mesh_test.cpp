@@ -51,6 +51,10 @@ TEST(DoubtfulMesh, AnElementThatIsListedTwiceIsTold) {
   const auto lines = doubtful_mesh(model);
   ASSERT_EQ(lines.size(), 1U);
   EXPECT_NE(lines.front().find("elements 1 and 7 are the same"), std::string::npos) << lines.front();
+  model.elements.back().offset_m[0].y() = 0.2;  // of its second node
+  EXPECT_TRUE(doubtful_mesh(model).empty());
+  model.elements.front().offset_m[1].y() = 0.2;
+  EXPECT_EQ(doubtful_mesh(model).size(), 1U);
   model.elements.back().section = 1;  // two beams side by side
   EXPECT_TRUE(doubtful_mesh(model).empty());
 }
