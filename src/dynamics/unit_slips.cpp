@@ -118,7 +118,7 @@ struct WeightUnit {
   const char *system = "", *divisor = "";  ///< its name, "" among numbers in SI units; "": a mass, not a weight
 };
 /// Among SI numbers first; then those of the systems.
-constexpr std::array<WeightUnit, 13> weight_units = {
+constexpr std::array<WeightUnit, 17> weight_units = {
     {{1.0 / gravity_m_s2, "a weight in N/m3 (divide by 9.81)"},
      {1.0 / gravity_in_s2, "a weight in lbf/in3 (is PARAM,WTMASS,.00259 missing?)"},
      {1.0 / gravity_ft_s2, "a weight in lbf/ft3 or kip/ft3 (divide by 32.174)"},
@@ -131,6 +131,10 @@ constexpr std::array<WeightUnit, 13> weight_units = {
      {1e3 / gravity_m_s2, "kN/m3", 1e3, "kN and m", "9.80665"},
      {1e9 / gravity_m_s2, "N/mm3", 1e6, "N and mm", "9806.65"},
      {1e3, "t/m3", 1e3, "kN and m"},
+     {1.06869e7, "lbf s2/in4", 6894.757, "lbf and in"},
+     {1.06869e10, "kip s2/in4", 6894757.0, "kip and in"},
+     {515.379, "slug/ft3", 47.88026, "lbf and ft"},
+     {515379.0, "kip s2/ft4", 47880.26, "kip and ft"},
      {1e-3, "kg/m3", 1e-3, "N and m"}}};
 
 /// A density that is a weight per volume, or in another unit of mass: in kg/m3 the material is like a known one.

@@ -132,7 +132,11 @@ TEST(UnitSlips, WeightsInADeckOfOtherUnits) {
                         {3.06e6, 2.5, "tonf/m3"},
                         {2.1e8, 77.0, "kN/m3"},
                         {3e7, 25.0, "kN/m3"},
-                        {2.1e5, 7.7e-5, "N/mm3"}}) {
+                        {2.1e5, 7.7e-5, "N/mm3"},
+                        {29e6, 7.3e-4, "lbf and in, with densities in lbf s2/in4? Frequencies hold"},
+                        {29e3, 7.3e-7, "kip and in, with densities in kip s2/in4?"},
+                        {4.18e9, 15.2, "lbf and ft, with densities in slug/ft3?"},
+                        {5.2e5, 4.66e-3, "kip and ft, with densities in kip s2/ft4?"}}) {
     model.materials[0] = {"m", c.modulus, c.modulus / 2.6, 0.3, c.density};
     expect_slip(model, c.said);
   }
