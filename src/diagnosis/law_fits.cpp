@@ -65,8 +65,8 @@ void score_at_base(const OneLaw& law, const LawSearch& search, LawAccount& accou
   MatrixXd left(search.system.residual.size(), std::ssize(choices));
   for (Index k = 0; k < left.cols(); ++k) left.col(k) = search.system.residual - choices[static_cast<std::size_t>(k)].change;
   const OneLaw::Point at = law.at(account.evidence.tau);
-  if (at.lower.size() == 0) return;
-  const VectorXd chi_squared = linalg::lower_solve(at.lower, left).colwise().squaredNorm();
+  if (!at.exists) return;
+  const VectorXd chi_squared = at.whitened(law.coordinates().of(left)).colwise().squaredNorm();
   std::vector<int> kept;
   const Index best = first_of_equals(-chi_squared);
   for (Index k = 0; k < left.cols(); ++k)

@@ -21,6 +21,7 @@ using Eigen::VectorXd;
 
 constexpr double kPerCent = 100.0;          // units of a class per relative effect
 const double kShrinks[] = {0.0, 1.5, 3.0};  // reductions of ln tau: a large cause leaves smaller errors than "nothing" does
+constexpr std::ptrdiff_t kTogether = 64;    // entries that one product weighs
 constexpr double kShows = 1e-3;             // deviations; entries with smaller changes are left out
 
 double log_sum_of(const VectorXd& v) {
@@ -82,44 +83,61 @@ class Screen {
       search_.accounts[i].members = {static_cast<int>(i)};
       search_.accounts[i].log_prior = search_.entries[i].log_prior;
     }
+    if (!law_.coordinates().exist()) return;
+    const MatrixXd left = law_.coordinates().of(search_.system.residual);
+    const MatrixXd changes = law_.coordinates().of(search_.system.signatures);
+    std::map<int, std::vector<std::size_t>> of_contrast;
+    for (std::size_t i = 0; i < search_.entries.size(); ++i) of_contrast[search_.entries[i].contrast].push_back(i);
     for (const ScreenPoint& point : points_) {
       const OneLaw::Point at = law_.at(point.tau);
-      if (at.lower.size() == 0) continue;
-      const VectorXd residual = linalg::lower_solve(at.lower, search_.system.residual);
-      const MatrixXd signatures = linalg::lower_solve(at.lower, search_.system.signatures);
-      const VectorXd along = signatures.transpose() * residual, square = signatures.colwise().squaredNorm();
-      parallel_for(search_.accounts.size(), [&](std::size_t i) {
-        const LawEntry& entry = search_.entries[i];
-        if (entry.contrast != point.contrast) return;
-        LawAccount& account = search_.accounts[i];
-        const std::vector<double> factors = magnitude_factors(*entry.candidate);
-        VectorXd terms(std::ssize(entry.tried) * std::ssize(factors));
-        Index k = 0;
-        for (std::size_t m = 0; m < entry.tried.size(); ++m)
-          for (const double t : factors) {
-            const Index s = entry.first_signature + static_cast<Index>(m);
-            terms[k++] = t * along[s] - 0.5 * t * t * square[s] + prior_of(point, t * entry.effects[m]);
-          }
-        const double value = log_sum_of(terms) - std::log(static_cast<double>(terms.size())) -
-                             0.5 * (residual.squaredNorm() + at.log_determinant) + point.log_volume;
-        if (!(value + account.log_prior > account.log_weight)) return;
-        account.log_weight = value + account.log_prior;
-        account.evidence.tau = point.tau;
-        account.evidence.log_evidence = value;
-        const Index best = first_of_equals(terms);
-        const auto factor = static_cast<std::size_t>(best) % factors.size(),
-                   tried = static_cast<std::size_t>(best) / factors.size();
-        account.causes = {{entry.candidate, entry.tried[tried].a}};
-        if (is_a_size(*entry.candidate))
-          account.causes.front().a[0] = scaled_magnitude(*entry.candidate, account.causes.front().a[0], factors[factor]);
-        account.across = best_across(entry, account.causes.front().a, terms, factors.size());
-        account.effect = factors[factor] * entry.effects[tried];
-        account.evidence.chi_squared = residual.squaredNorm() - 2.0 * terms[best];
+      if (!at.exists) continue;
+      const VectorXd residual = at.whitened(left);
+      const std::vector<std::size_t>& entries = of_contrast[point.contrast];
+      parallel_for((entries.size() + kTogether - 1) / kTogether, [&](std::size_t part) {
+        const auto first = entries.begin() + static_cast<Index>(part * kTogether);
+        weigh_some({first, std::min(first + kTogether, entries.end())}, point, at, residual, changes);
       });
     }
   }
 
  private:
+  /// @param residual, changes  whitened, and in coordinates
+  void weigh_some(const std::vector<std::size_t>& entries, const ScreenPoint& point, const OneLaw::Point& at,
+                  const VectorXd& residual, const MatrixXd& changes) {
+    std::vector<Index> columns;
+    for (const std::size_t i : entries)
+      for (std::size_t m = 0; m < search_.entries[i].tried.size(); ++m)
+        columns.push_back(search_.entries[i].first_signature + static_cast<Index>(m));
+    const MatrixXd signatures = at.whitened(changes(Eigen::all, columns));
+    const VectorXd along = signatures.transpose() * residual, square = signatures.colwise().squaredNorm();
+    Index s = 0;
+    for (const std::size_t i : entries) {
+      const LawEntry& entry = search_.entries[i];
+      LawAccount& account = search_.accounts[i];
+      const std::vector<double> factors = magnitude_factors(*entry.candidate);
+      VectorXd terms(std::ssize(entry.tried) * std::ssize(factors));
+      Index k = 0;
+      for (std::size_t m = 0; m < entry.tried.size(); ++m, ++s)
+        for (const double t : factors)
+          terms[k++] = t * along[s] - 0.5 * t * t * square[s] + prior_of(point, t * entry.effects[m]);
+      const double value = log_sum_of(terms) - std::log(static_cast<double>(terms.size())) -
+                           0.5 * (residual.squaredNorm() + at.log_determinant) + point.log_volume;
+      if (!(value + account.log_prior > account.log_weight)) continue;
+      account.log_weight = value + account.log_prior;
+      account.evidence.tau = point.tau;
+      account.evidence.log_evidence = value;
+      const Index best = first_of_equals(terms);
+      const auto factor = static_cast<std::size_t>(best) % factors.size(),
+                 tried = static_cast<std::size_t>(best) / factors.size();
+      account.causes = {{entry.candidate, entry.tried[tried].a}};
+      if (is_a_size(*entry.candidate))
+        account.causes.front().a[0] = scaled_magnitude(*entry.candidate, account.causes.front().a[0], factors[factor]);
+      account.across = best_across(entry, account.causes.front().a, terms, factors.size());
+      account.effect = factors[factor] * entry.effects[tried];
+      account.evidence.chi_squared = residual.squaredNorm() - 2.0 * terms[best];
+    }
+  }
+
   /// Adds a mode, and the same scales made smaller; for "nothing" also with a small scale in each contrast.
   void add_point(const LawEvidence& evidence, double value, int contrast) {
     if (evidence.tau.size() == 0) return;

@@ -39,18 +39,20 @@ class SetScreen {
       for (std::size_t i = 0; i < entry.tried.size(); ++i)
         columns.push_back(static_cast<int>(entry.first_signature + static_cast<Index>(i)));
     }
-    const MatrixXd signatures = search.system.signatures(Eigen::all, columns);
+    if (!law.coordinates().exist()) return;
+    const MatrixXd changes = law.coordinates().of(search.system.signatures(Eigen::all, columns));
+    const MatrixXd left = law.coordinates().of(search.system.residual);
     std::size_t looked = 0;
     for (const LawAccount& account : search.accounts) {
       if (!account.scored) continue;
       if (looked++ == kTried) break;  // sets are weighed at the scales of these accounts
       const OneLaw::Point at = law.at(account.evidence.tau);
-      if (at.lower.size() == 0) continue;
-      const MatrixXd s = linalg::lower_solve(at.lower, signatures);
+      if (!at.exists) continue;
+      const MatrixXd s = at.whitened(changes);
       LookAtSets look;
       for (Index c = kFirstContrast; c < account.evidence.tau.size(); ++c)
         if (account.evidence.tau[c] > 0.0) look.contrasts.insert(static_cast<int>(c) - kFirstContrast);
-      look.along = s.transpose() * linalg::lower_solve(at.lower, search.system.residual);
+      look.along = s.transpose() * at.whitened(left);
       look.products = linalg::product(s, s, true);
       looks_.push_back(std::move(look));
     }

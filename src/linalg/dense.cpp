@@ -155,7 +155,7 @@ ThinSvd thin_svd(Eigen::MatrixXd a) {
 Eigen::MatrixXd cholesky_factor(Eigen::MatrixXd a) {
   use_one_thread();
   int size = as_int(a.rows()), info = 0;
-  dpotrf_("L", &size, a.data(), &size, &info);
+  if (size > 0) dpotrf_("L", &size, a.data(), &size, &info);
   if (info != 0) return {};
   a.triangularView<Eigen::StrictlyUpper>().setZero();
   return a;

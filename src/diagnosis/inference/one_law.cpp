@@ -83,16 +83,35 @@ struct OneLaw::Look {
   double value = -1e300;  // ln (likelihood × prior)
   double chi_squared = 0.0;
   VectorXd shift, weight;
-  MatrixXd solved;   // L^-1 (r - s)
-  MatrixXd inverse;  // Sigma^-1
+  MatrixXd solved;   // whitened r - s
+  MatrixXd inverse;  // Sigma^-1 in the reached coordinates
   VectorXd gradient;
   MatrixXd curvature;
 };
 
+MatrixXd OneLaw::Point::whitened(MatrixXd z) const {
+  z.topRows(lower.rows()) = linalg::lower_solve(lower, z.topRows(lower.rows()));
+  return z;
+}
+
 OneLaw::Point OneLaw::at(const VectorXd& tau) const {
-  Point out{tau, linalg::cholesky_factor(covariance_at(system_, tau)), -1e300};
-  if (out.lower.size() > 0) out.log_determinant = 2.0 * out.lower.diagonal().array().log().sum();
+  Point out{tau, false, {}, -1e300};
+  if (!coordinates_.exist()) return out;
+  MatrixXd sigma = coordinates_.sigma();
+  for (std::size_t c = 0; c < coordinates_.classes().size(); ++c)
+    if (const double t = tau[static_cast<Index>(c)]; t > 0.0 && !coordinates_.classes()[c].empty())
+      sigma += t * t * coordinates_.classes()[c].covariance;
+  out.lower = linalg::cholesky_factor(std::move(sigma));
+  out.exists = out.lower.rows() == coordinates_.sigma().rows();
+  out.log_determinant = coordinates_.log_determinant() + 2.0 * out.lower.diagonal().array().log().sum();
   return out;
+}
+
+LawHypothesis OneLaw::in_coordinates(LawHypothesis hypothesis) const {
+  if (!coordinates_.exist()) return hypothesis;
+  hypothesis.left = coordinates_.of(hypothesis.left);
+  if (hypothesis.slopes.cols() > 0) hypothesis.slopes = coordinates_.of(hypothesis.slopes);
+  return hypothesis;
 }
 
 OneLaw::Look OneLaw::look(const LawHypothesis& hypothesis, const VectorXd& log_tau) const {
@@ -106,11 +125,11 @@ OneLaw::Look OneLaw::look(const LawHypothesis& hypothesis, const VectorXd& log_t
     prior += log_half_t(t, hypothesis.active[k].scale);
   }
   out.point = at(out.tau);
-  if (out.point.lower.size() == 0) return out;
-  out.solved = linalg::lower_solve(out.point.lower, hypothesis.left);
+  if (!out.point.exists) return out;
+  out.solved = out.point.whitened(hypothesis.left);
   double width = 0.0;
   if (hypothesis.slopes.cols() > 0) {
-    const MatrixXd slopes = linalg::lower_solve(out.point.lower, hypothesis.slopes);
+    const MatrixXd slopes = out.point.whitened(hypothesis.slopes);
     MatrixXd products = linalg::product(slopes, slopes, true);
     width = log_width(products, hypothesis.high - hypothesis.low);
     products.diagonal().array() += 1e-12 * (1.0 + products.diagonal().array().abs());
@@ -128,12 +147,12 @@ OneLaw::Look OneLaw::look(const LawHypothesis& hypothesis, const VectorXd& log_t
 void OneLaw::slope_of(const LawHypothesis& hypothesis, Look& look) const {
   const auto count = static_cast<Index>(hypothesis.active.size());
   look.inverse = linalg::inverse_of_factored(look.point.lower);
-  const MatrixXd alpha = linalg::lower_solve(look.point.lower, look.solved, true);
+  const MatrixXd alpha = linalg::lower_solve(look.point.lower, look.solved.topRows(coordinates_.sigma().rows()), true);
   look.gradient.resize(count);
   std::vector<MatrixXd> along;  // L^-1 P_c alpha, each column times the square root of its weight
   for (Index k = 0; k < count; ++k) {
     const ActiveClass& active = hypothesis.active[static_cast<std::size_t>(k)];
-    const MatrixXd& square = system_.classes[static_cast<std::size_t>(active.index)].covariance;
+    const MatrixXd& square = coordinates_.classes()[static_cast<std::size_t>(active.index)].covariance;
     const double tau = look.tau[active.index], q = tau * tau / (3.0 * active.scale * active.scale);
     MatrixXd moved = linalg::product(square, alpha);
     const VectorXd power = moved.cwiseProduct(alpha).colwise().sum();
@@ -149,7 +168,8 @@ void OneLaw::slope_of(const LawHypothesis& hypothesis, Look& look) const {
 MatrixXd OneLaw::expected_curvature(const LawHypothesis& hypothesis, const Look& look) const {
   std::vector<MatrixXd> whitened;  // L^-1 D_c
   for (const ActiveClass& active : hypothesis.active)
-    whitened.push_back(linalg::lower_solve(look.point.lower, system_.classes[static_cast<std::size_t>(active.index)].columns));
+    whitened.push_back(
+        linalg::lower_solve(look.point.lower, coordinates_.classes()[static_cast<std::size_t>(active.index)].columns));
   return with_prior(hypothesis, look, [&](std::size_t k, std::size_t l) {
     return linalg::product(whitened[k], whitened[l], true).squaredNorm();
   });
@@ -175,10 +195,11 @@ MatrixXd OneLaw::with_prior(const LawHypothesis& hypothesis, const Look& look,
 double OneLaw::log_posterior(const LawHypothesis& hypothesis, const VectorXd& tau) const {
   VectorXd log_tau(std::ssize(hypothesis.active));
   for (Index k = 0; k < log_tau.size(); ++k) log_tau[k] = std::log(tau[hypothesis.active[static_cast<std::size_t>(k)].index]);
-  return look(hypothesis, log_tau).value;
+  return look(in_coordinates(hypothesis), log_tau).value;
 }
 
-LawEvidence OneLaw::scored(const LawHypothesis& hypothesis, const VectorXd& start) const {
+LawEvidence OneLaw::scored(const LawHypothesis& in_rows, const VectorXd& start) const {
+  const LawHypothesis hypothesis = in_coordinates(in_rows);
   const auto count = static_cast<Index>(hypothesis.active.size());
   VectorXd log_tau(count);
   for (Index k = 0; k < count; ++k) {
@@ -188,7 +209,7 @@ LawEvidence OneLaw::scored(const LawHypothesis& hypothesis, const VectorXd& star
   Look now = look(hypothesis, log_tau);
   LawEvidence out;
   out.tau = out.deviation = VectorXd::Zero(classes());
-  if (now.point.lower.size() == 0) return out;
+  if (!now.point.exists) return out;
   slope_of(hypothesis, now);
   for (int i = 0; i < kIterations && !out.converged; ++i) {
     MatrixXd damped = now.curvature;

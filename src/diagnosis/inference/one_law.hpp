@@ -4,6 +4,8 @@
 #include <functional>
 #include <vector>
 
+#include "diagnosis/inference/law_coordinates.hpp"
+
 namespace twindeck::diagnosis {
 
 /// A class of errors of unit scale.
@@ -77,15 +79,19 @@ struct LawEvidence {
 class OneLaw {
  public:
   /// @param system  must outlive the law
-  explicit OneLaw(const LawSystem& system) : system_(system) {}
+  explicit OneLaw(const LawSystem& system) : system_(system), coordinates_(system) {}
   OneLaw(LawSystem&&) = delete;
   [[nodiscard]] Eigen::Index classes() const { return static_cast<Eigen::Index>(system_.classes.size()); }
+  [[nodiscard]] const LawCoordinates& coordinates() const { return coordinates_; }
 
   /// Sigma at given scales.
   struct Point {
     Eigen::VectorXd tau;
-    Eigen::MatrixXd lower;  ///< L, L L' = Sigma; empty if Sigma is not positive definite
-    double log_determinant = 0.0;
+    bool exists = false;           ///< false: Sigma is not positive definite
+    Eigen::MatrixXd lower;         ///< L, L L' = Sigma in the coordinates that a class reaches
+    double log_determinant = 0.0;  ///< of Sigma in the rows
+    /// z' z is the chi² of rows. @param z  coordinates of rows (n_rows × n)
+    [[nodiscard]] Eigen::MatrixXd whitened(Eigen::MatrixXd z) const;
   };
   [[nodiscard]] Point at(const Eigen::VectorXd& tau) const;
 
@@ -106,7 +112,11 @@ class OneLaw {
   static Eigen::MatrixXd with_prior(const LawHypothesis& hypothesis, const Look& look,
                                     const std::function<double(std::size_t, std::size_t)>& information);
 
+  /// A hypothesis with `left` and `slopes` in coordinates.
+  [[nodiscard]] LawHypothesis in_coordinates(LawHypothesis hypothesis) const;
+
   const LawSystem& system_;
+  LawCoordinates coordinates_;
 };
 
 }  // namespace twindeck::diagnosis

@@ -379,13 +379,14 @@ std::vector<std::pair<std::string, ElementPlaces::Group>> ElementPlaces::groups(
 
 void ElementPlaces::add_groups(Places& places) const {
   std::vector<Place>& set = places.sets["groups"];
-  const std::vector<Place> of_parameters = set;
+  std::vector<std::pair<std::string, Symmetric>> of_parameters;
+  for (const Place& place : set) of_parameters.emplace_back(place.id, place.stiffness.whole());
   const auto add = [&](const std::string& id, const Group& group) {
     Place place{id, group.sum / group.count, free(group.stiffness), {}, {}, {}, group.elements};
     if (!group.mass.entries.empty()) place.mass = free(group.mass);
-    const bool known = std::ranges::any_of(of_parameters, [&](const Place& other) {
-      return other.id == place.id ||
-             (other.stiffness.nonZeros() > 0 && alike(other.stiffness.whole(), place.stiffness.whole()));
+    const Symmetric stiffness = place.stiffness.whole();
+    const bool known = std::ranges::any_of(of_parameters, [&](const auto& other) {
+      return other.first == id || (other.second.nonZeros() > 0 && alike(other.second, stiffness));
     });
     if (known || place.stiffness.nonZeros() == 0) return;
     place.stiffness_law = laws_.stiffness(group.elements, group.springs);
