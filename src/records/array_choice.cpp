@@ -34,7 +34,7 @@ bool is_rate(const std::string& name) {  // "samplingrate", "sample_rate_hz"; "s
 bool is_step(const std::string& name) {
   return is_one_of(
       "|dt|ts|delta_t|deltat|step|time_step|timestep|sampling_interval|sampling_period|sampling_time|samplinginterval|"
-      "samplingperiod|samplingtime|interval|xincrement|wf_increment|",
+      "samplingperiod|samplingtime|interval|increment|xincrement|wf_increment|",
       name);
 }
 

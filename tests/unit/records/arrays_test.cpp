@@ -5,6 +5,7 @@
 
 #include "core/error.hpp"
 #include "npy_double.hpp"
+#include "records/array_choice.hpp"
 #include "records/inspect.hpp"
 #include "scratch.hpp"
 
@@ -25,6 +26,12 @@ void add(mat_t* mat, const char* name, const Eigen::MatrixXd& values, matio_comp
   matvar_t* variable = Mat_VarCreate(name, MAT_C_DOUBLE, MAT_T_DOUBLE, 2, dims, copy.data(), 0);
   ASSERT_EQ(Mat_VarWrite(mat, variable, compression), 0);
   Mat_VarFree(variable);
+}
+
+TEST(NamedRates, AsProgramsCallThem) {
+  for (const char* step : {"Signal_0.x_values.increment", "dt", "sampling_interval", "Xincrement"})
+    EXPECT_NEAR(rate_of(step, 0.01), 100.0, 1e-9) << step;
+  EXPECT_EQ(rate_of("samples", 100.0), 0.0);
 }
 
 TEST(MatRecord, Version5AndVersion73) {
