@@ -140,8 +140,9 @@ std::string check_rate(const Campaign& campaign, const CampaignRecord& record, c
         place, fmt::format("the time stamps run at different rates, at another from {} on", place_of(info, clock.changes_rate)),
         "give each rate its own record");
   for (const std::string& note : info.notes)
-    if (note.find("different rates") != std::string::npos)
-      throw InputError({record.file.string(), 0, ""}, note, "give each rate its own record");
+    for (const char* of_channels : {"different rates", "different starts"})
+      if (note.find(of_channels) != std::string::npos)
+        throw InputError({record.file.string(), 0, ""}, note, "give the channels of each a file and a [[record]] of their own");
   if (info.rate_Hz <= 0.0) return "";
   const double stated = record.sampling_rate_Hz, rate = rate_beside(info, stated);
   const double share = info.rate_Hz == clock.rate_Hz ? clock.deviation_Hz / info.rate_Hz : 0.0,

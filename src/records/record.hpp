@@ -21,6 +21,7 @@ struct ChannelInfo {
   std::string point;                     ///< node of a universal file
   std::string direction;                 ///< "+x" … of a universal file
   double rate_Hz = 0.0;                  ///< where it may differ between channels
+  double start = 0.0;                    ///< [samples] on the clock of a universal file
   Eigen::Index samples = 0;
   Eigen::Index position = 0;   ///< position of its column or series in the file, from 1, with time columns counted
   Eigen::Index row_group = 0;  ///< channels of different groups never have values in one row of a text file

@@ -148,6 +148,7 @@ Series read_series_header(UniversalLines& in, const std::string& set_line, const
   if (series.even && series.step > 0.0) {
     const double unit_s = series.unit_s > 0.0 ? series.unit_s : StampedRows::likely_unit_s(series.step);
     series.channel.rate_Hz = 1.0 / (series.step * unit_s);
+    series.channel.start = series.start / series.step;
   }
   return series;
 }
@@ -423,6 +424,11 @@ RecordInfo scan_universal(const fs::path& file, const Visitor& visit) {
       info.notes.push_back(fmt::format("channels have different rates: {} {} Hz, {} {} Hz", info.channels.front().name,
                                        info.channels.front().rate_Hz, channel.name, channel.rate_Hz));
       info.rate_Hz = 0.0;
+      break;
+    }
+    if (std::abs(channel.start - info.channels.front().start) > 0.5) {
+      info.notes.push_back(fmt::format("channels have different starts: {} begins {:.6g} samples after {}", channel.name,
+                                       channel.start - info.channels.front().start, info.channels.front().name));
       break;
     }
   }

@@ -84,6 +84,16 @@ class Clocks(unittest.TestCase):
         stamps = [f"{145900 + t if t < 30 else 150000 - 30 + t:.2f}" for t in T]
         self.refused("more is missing than the 6000 samples that are there", table(stamps, "UTC,P1,P2,P3"))
 
+    def test_channels_of_a_universal_file_that_begin_apart(self):
+        text = ""
+        for c in range(3):
+            text += "    -1\n    58\n" + f"P{c + 1}\nNONE\n01-Jan-26 10:00:00\nNONE\nNONE\n"
+            text += f"{1:5d}{1:10d}{1:5d}{1:10d} {'NONE':<10}{c + 1:10d}{3:4d} {'NONE':<10}{0:10d}{0:4d}\n"
+            text += f"{2:10d}{N:10d}{1:10d}{0.25 * (c == 2):13.5E}{0.01:13.5E}{0.0:13.5E}\n{17:10d}{0:5d}{0:5d}{0:5d} {'Time':<20} {'s':<20}\n"
+            text += f"{12:10d}{0:5d}{0:5d}{0:5d} {'Acceleration':<20} {'m/s^2':<20}\n" + 2 * f"{0:10d}{0:5d}{0:5d}{0:5d} {'NONE':<20} {'NONE':<20}\n"
+            text += "".join("".join(f"{v:13.5E}" for v in DATA[i:i + 6, c]) + "\n" for i in range(0, N, 6)) + "    -1\n"
+        self.refused("P3 begins 25 samples after P1", text, file="record.uff")
+
     def test_rows_of_another_clock_beside(self):
         self.assertIn(self.run_step(table([f"{t:.3f}" for t in T])).returncode, (0, 1))
         right = (self.folder / "out/psd.csv").read_bytes()

@@ -1,6 +1,7 @@
 // Oracle: what went into the file; the quirks are made by hand from a sound one.
 #include "records/universal.hpp"
 
+#include <fmt/ranges.h>
 #include <gtest/gtest.h>
 
 #include <sstream>
@@ -133,6 +134,16 @@ std::string uneven_58b(bool wide) {
   text.replace(text.find(size), 12, fmt::format("{:12d}", (wide ? 16 : 12) * 400));
   text.replace(text.find(form), 20, fmt::format("{:10d}{:10d}", 400, 0));
   return text + "\n    -1\n";
+}
+
+TEST(Universal58, ChannelsThatBeginApartAreTold) {
+  const Scratch scratch;
+  std::string text = universal_58(same_samples().leftCols(2), 128.0, false);
+  const auto said = [&] { return fmt::format("{}", fmt::join(read(scratch.write("a.uff", text)).info.notes, "; ")); };
+  EXPECT_EQ(said().find("starts"), std::string::npos) << said();
+  const std::string start = "  0.00000E+00  7.81250E-03";  // and step
+  text.replace(text.rfind(start), start.size(), "  2.50000E-01  7.81250E-03");
+  EXPECT_NE(said().find("channels have different starts: A2 begins 32 samples after A1"), std::string::npos) << said();
 }
 
 TEST(Universal58, UnevenTimesOfFourOrEightBytes) {
