@@ -313,14 +313,17 @@ void find_numbers_of_time(const std::vector<std::vector<std::string_view>>& rows
     for (const auto& row : rows)
       stamps.add(number_in(row[c], layout.decimal_comma).value_or(std::numeric_limits<double>::quiet_NaN()));
     const bool letter = named && unit == 0.0 && trimmed(layout.names[c]).size() == 1;  // T may be a temperature
+    const bool degrees = letter && other_unit, rounded = stamps.distinct() < rows.size();
     const bool packets = unit > 0.0 || (c == 0 && names && layout.units[c].empty());
-    const bool time = named && !letter && !other_unit
-                          ? stamps.mostly_rises() || stamps.clock(1.0).reversed || stamps.runs_like_time(Straight::named)
-                          : (named || !other_unit) && stamps.runs_like_time(!names || named ? Straight::roughly
-                                                                            : packets       ? Straight::to_a_stamp
-                                                                                            : Straight::to_a_sample);
+    const bool time =
+        named && !letter && !other_unit
+            ? stamps.mostly_rises() || stamps.clock(1.0).reversed || stamps.runs_like_time(Straight::named)
+            : (degrees ? !rounded : named || !other_unit) && stamps.runs_like_time(degrees           ? Straight::to_a_sample
+                                                                                   : !names || named ? Straight::roughly
+                                                                                   : packets         ? Straight::to_a_stamp
+                                                                                                     : Straight::to_a_sample);
     if (!time) {
-      if (named && !(letter && other_unit))
+      if (named && !degrees)
         layout.notes.push_back("column '" + layout.names[c] + "' does not run like time and is read as a channel");
       return;
     }

@@ -212,19 +212,23 @@ std::optional<double> TimeStampReader::next(std::string_view text) {
   if (meanings.empty()) return {};
   if (is_minutes(text)) {
     constexpr double least = 0.98;  // [h] least step back that is a full hour passed
-    if (last_ && *last_ - hours_ - meanings[0] > least * kHour_s) hours_ += kHour_s;
+    if (!last_.empty() && last_[0] - hours_ - meanings[0] > least * kHour_s) hours_ += kHour_s;
     meanings[0] += hours_;
   }
-  std::size_t best = 0;
-  if (last_) {
-    for (std::size_t i = 0; i < meanings.size(); ++i) {
-      const double step = meanings[i] - *last_, best_step = meanings[best] - *last_;
-      if ((step >= 0.0 && best_step < 0.0) || (step >= 0.0 && step < best_step)) best = i;
-    }
+  std::size_t best = 0, before = taken_;
+  const auto step = [&](std::size_t now, std::size_t then) { return std::abs(meanings[now] - last_[then]); };
+  for (std::size_t now = 0; now < meanings.size(); ++now)
+    for (std::size_t then = 0; then < last_.size(); ++then)
+      if (step(now, then) < step(best, before) - 1.0) best = now, before = then;
+  if (before != taken_) {  // the stamps so far had the other meaning: their clock goes on
+    shift_ += last_[taken_] - last_[before];
+    usual_ = before;
+    exchanged_ = 0;
   }
-  if (meanings.size() > 1 && best == 1) ++exchanged_;
-  last_ = meanings[best];
-  return meanings[best];
+  if (meanings.size() > 1 && best != usual_) ++exchanged_;
+  taken_ = best;
+  last_ = std::move(meanings);
+  return last_[taken_] + shift_;
 }
 
 }  // namespace twindeck::records

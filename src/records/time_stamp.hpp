@@ -19,18 +19,21 @@ namespace twindeck::records {
 /// "2021-04-03", "03.04.2021", "4/3/21", "3-Apr-2021": a date without a time.
 [[nodiscard]] bool is_date(std::string_view cell);
 
-/// Turns a column of time stamps into seconds, row by row. Of several meanings it takes the first one after the previous stamp.
-/// This corrects loggers that exchange day and month on the first twelve days of a month.
+/// Turns a column of time stamps into seconds, row by row. Of several meanings of a stamp and of the one before, it takes the
+/// nearest two. So the order of day and month is kept over midnight, and loggers that exchange day and month on the first
+/// twelve days of a month are put right.
 class TimeStampReader {
  public:
   /// @return seconds, empty for no time stamp
   std::optional<double> next(std::string_view text);
-  /// Number of rows whose first meaning was not taken.
+  /// Number of rows whose usual meaning was not taken.
   [[nodiscard]] long exchanged() const { return exchanged_; }
 
  private:
-  std::optional<double> last_;
-  double hours_ = 0.0;  ///< [s] full hours passed, for stamps of minutes and seconds
+  std::vector<double> last_;           ///< meanings of the last stamp
+  std::size_t taken_ = 0, usual_ = 0;  ///< the one taken of them, and of the first stamps
+  double shift_ = 0.0;                 ///< [s] of the meanings now taken to those of the first stamps
+  double hours_ = 0.0;                 ///< [s] full hours passed, for stamps of minutes and seconds
   long exchanged_ = 0;
 };
 

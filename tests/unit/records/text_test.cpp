@@ -77,6 +77,34 @@ TEST(TextRecord, DayAndMonthExchangedOnSomeDays) {
   EXPECT_NEAR(third - second, 1.5, 1e-6);
 }
 
+// 5/7 and 5/8 may be 5 July and 5 August, or 7 and 8 May, which follow one another.
+TEST(TextRecord, TheOrderOfDayAndMonthIsKeptOverMidnight) {
+  for (const auto& [before, after] :
+       {std::pair("5/7/2024", "5/8/2024"), {"05/12/2024", "05/13/2024"}, {"7.5.2024", "8.5.2024"}}) {
+    TimeStampReader reader;
+    const double first = *reader.next(std::string(before) + " 23:59:59.75"),
+                 late = *reader.next(std::string(before) + " 23:59:59.5");
+    EXPECT_NEAR(late - first, -0.25, 1e-6) << before;
+    EXPECT_NEAR(*reader.next(std::string(after) + " 00:00:00.25") - late, 0.75, 1e-6) << before;
+    EXPECT_NEAR(*reader.next(std::string(after) + " 00:00:01") - late, 1.5, 1e-6) << before;
+    EXPECT_EQ(reader.exchanged(), 0) << before;
+  }
+}
+
+TEST(TextRecord, ATemperatureBesideNoTimeIsAChannel) {
+  const Scratch scratch;
+  std::string text =
+                  "T (\xC2\xB0"
+                  "C),a\n",
+              clock = "T (sec.),a\n";
+  for (int t = 0; t < 400; ++t) {
+    text += fmt::format("{:.1f},{}\n", 20.0 + 0.01 * t, number(std::sin(0.3 * t), false));
+    clock += fmt::format("{:.2f},{}\n", 0.01 * t, number(std::sin(0.3 * t), false));
+  }
+  EXPECT_EQ(read(scratch.write("a.csv", text)).info.channels.size(), 2U);
+  EXPECT_NEAR(read(scratch.write("b.csv", clock)).info.rate_Hz, 100.0, 1e-6);
+}
+
 TEST(TextRecord, GapsOfTheClockAndEmptyCellsAreMissing) {
   const Scratch scratch;
   std::string text = "time_s,a,b\n";
