@@ -62,13 +62,15 @@ void refuse_clipped(const ChannelQuality& q, double largest, const std::string& 
 
 void refuse_lone(const ChannelQuality& q, double largest, const std::string& without) {
   if (!q.lone || q.lone->deviations <= largest) return;
+  const bool several = q.lone->samples > 1;
   throw UnusableRecord(
       {q.record, 0, q.channel},
-      fmt::format("has {:.6g} at sample {}, {:.3g} robust deviations from its median and alone between quiet neighbours, "
+      fmt::format("has {:.6g} at sample {}{}, {:.3g} robust deviations from its median and alone between quiet neighbours, "
                   "expected at most {:.3g}: that is no motion",
-                  q.lone->value, q.lone->sample, q.lone->deviations, largest),
-      fmt::format("empty the cell and bridge the gap (--set longest_gap=1), {}, or allow it (--set largest_lone={:.2g})",
-                  without, 1.1 * q.lone->deviations));
+                  q.lone->value, q.lone->sample, several ? fmt::format(" and {} after it", q.lone->samples - 1) : "",
+                  q.lone->deviations, largest),
+      fmt::format("empty the cell{} and bridge the gap (--set longest_gap={}), {}, or allow it (--set largest_lone={:.2g})",
+                  several ? "s" : "", q.lone->samples, without, 1.1 * q.lone->deviations));
 }
 
 /// Refuses used channels that do not move, are clipped, or have errors of the recorder. A force may be a single blow.

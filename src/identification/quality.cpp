@@ -16,7 +16,7 @@ using Eigen::Index;
 namespace {
 
 constexpr double kLeastDeviations = 10.0;  // a sample nearer than this belongs to the normal distribution of the record
-constexpr Index kLongest = 3;              // samples in a row
+constexpr Index kLongest = 3;              // different values in a row; one value, held, counts once
 constexpr Index kAround = 10;              // samples on each side that are compared
 constexpr double kQuiet = 1.0 / 20.0;  // of the distance; beside a filtered pulse neighbours have more, on a shaking table 0.1
 constexpr double kSame = 0.5;          // of the distance; samples above it belong to the same group
@@ -68,12 +68,19 @@ bool is_quiet(const Distance& distance, Index first, Index step, double large) {
   return side.empty() || (side.front() < kQuiet * large && upper_median(side) < kQuiet * large);
 }
 
-bool stands_alone(const Distance& distance, Index t) {
+/// Number of samples in the group around t if it stands alone, else 0.
+Index alone_around(const Distance& distance, Index t) {
   const double large = distance.at(t);
-  Index begin = t, end = t + 1;
-  while (begin > 0 && end - begin <= kLongest && distance.at(begin - 1) >= kSame * large) --begin;
-  while (end < distance.size() && end - begin <= kLongest && distance.at(end) >= kSame * large) ++end;
-  return end - begin <= kLongest && is_quiet(distance, begin - 1, -1, large) && is_quiet(distance, end, 1, large);
+  Index begin = t, end = t + 1, values = 1;
+  const auto goes_on = [&](Index from, Index to) {
+    if (to < 0 || to >= distance.size() || values > kLongest || !(distance.at(to) >= kSame * large)) return false;
+    values += distance.at(to) != distance.at(from) ? 1 : 0;
+    return true;
+  };
+  while (goes_on(begin, begin - 1)) --begin;
+  while (goes_on(end - 1, end)) ++end;
+  const bool alone = values <= kLongest && is_quiet(distance, begin - 1, -1, large) && is_quiet(distance, end, 1, large);
+  return alone ? end - begin : 0;
 }
 
 ChannelQuality quality_of(const Eigen::Ref<const Eigen::VectorXd>& x) {
@@ -148,8 +155,10 @@ std::optional<LoneSample> lone_sample(const Eigen::Ref<const Eigen::VectorXd>& x
   double least = kLeastDeviations * distance.deviation();
   for (Index t = 0; t < x.size(); ++t) {
     const double d = distance.at(t);
-    if (!(d > least) || !std::isfinite(d) || !stands_alone(distance, t)) continue;
-    found = LoneSample{t, x[t], d / distance.deviation()};
+    if (!(d > least) || !std::isfinite(d) || (t > 0 && x[t] == x[t - 1])) continue;  // a value that is held, once
+    const Index samples = alone_around(distance, t);
+    if (samples == 0) continue;
+    found = LoneSample{t, x[t], d / distance.deviation(), samples};
     least = d;
   }
   return found;

@@ -14,11 +14,13 @@ namespace twindeck::identification {
 struct LoneSample {
   Eigen::Index sample = 0;
   double value = 0.0;
-  double deviations = 0.0;  ///< distance from the channel's median in robust standard deviations (1.4826 times the median of
-                            ///< absolute distances)
+  double deviations = 0.0;   ///< distance from the channel's median in robust standard deviations (1.4826 times the median of
+                             ///< absolute distances)
+  Eigen::Index samples = 1;  ///< in a row
 };
 
-/// The sample furthest from the median among those that stand alone: up to three in a row whose neighbours on both sides are
+/// The sample furthest from the median among those that stand alone: up to three values in a row, each perhaps held for
+/// several samples, whose neighbours on both sides are
 /// within a twentieth of its distance, the first ones as well as the median of ten. The motion of a structure does not stand
 /// alone: a free decay follows an impact, an earthquake lasts, and the anti-aliasing filter spreads a pulse over neighbouring
 /// samples.

@@ -42,12 +42,15 @@ TEST(LoneSampleOf, AnErrorValueIsFoundWhereverItStands) {
   }
 }
 
-TEST(LoneSampleOf, UpToThreeInARowAndSeveralNearOneAnother) {
+TEST(LoneSampleOf, UpToThreeInARowHeldAndSeveralNearOneAnother) {
   Eigen::VectorXd x = floor_noise();
   x.segment(1000, 3).setConstant(-9999.0);
   x[1005] = -9999.0;
   EXPECT_EQ(lone_sample(x)->value, -9999.0);
-  x.segment(1000, 6).setConstant(-9999.0);  // a run that clipping counts
+  x.segment(1000, 9).setConstant(-9999.0);  // an error value that is held
+  ASSERT_TRUE(lone_sample(x).has_value());
+  EXPECT_EQ(lone_sample(x)->samples, 9);
+  for (int k = 0; k < 9; ++k) x[1000 + k] = -9999.0 + k;  // a motion
   EXPECT_FALSE(lone_sample(x).has_value());
 }
 
