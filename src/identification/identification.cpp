@@ -89,6 +89,19 @@ void refuse_unusable(const std::vector<ChannelQuality>& quality, const std::vect
   }
 }
 
+/// Warns of the channel that holds its values longest, if its own rate is below that of the record.
+void warn_of_held(Conditioned& conditioned, double recorded_Hz) {
+  const auto slowest = std::ranges::max_element(conditioned.quality, {}, &ChannelQuality::held);
+  if (slowest == conditioned.quality.end() || !(conditioned.rate_Hz * static_cast<double>(slowest->held) > 1.001 * recorded_Hz))
+    return;
+  const double own_Hz = recorded_Hz / static_cast<double>(slowest->held);
+  conditioned.warnings.push_back(
+      fmt::format("setup {}: channel {} holds each value for {} samples, as one of {:.6g} Hz in a faster table does: above "
+                  "{:.6g} Hz it shows "
+                  "mirror images of the modes below; set decimation={}, or write each value once",
+                  conditioned.setup, slowest->channel, slowest->held, own_Hz, own_Hz / 2.0, slowest->held));
+}
+
 JudgedChannels judged_channels(const std::vector<Index>& columns, const Conditioned& conditioned,
                                const records::CampaignRecord& record) {
   JudgedChannels judged{columns, {}, {}, record.kind == "free_decay" || record.kind == "earthquake"};
@@ -170,6 +183,7 @@ Conditioned condition_with(const records::Campaign& campaign, const records::Rec
     conditioned.quality.insert(conditioned.quality.end(), quality.begin(), quality.end());
   }
   settle_sampling(conditioned, config, first.kind == "free_decay");
+  warn_of_held(conditioned, first.sampling_rate_Hz);
   return conditioned;
 }
 

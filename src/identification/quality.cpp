@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstdint>
 #include <random>
+#include <utility>
 
 #include "core/statistics.hpp"
 
@@ -104,7 +105,8 @@ ChannelQuality quality_of(const Eigen::Ref<const Eigen::VectorXd>& x) {
     return q;
   }
   q.mean = sum / static_cast<double>(there);
-  q.clipped = clipped_samples(x, lowest, highest);
+  q.held = held_samples(x);
+  q.clipped = q.held * clipped_samples(x(Eigen::seq(0, Eigen::last, q.held)), lowest, highest);
   q.lone = lone_sample(x);
   // Least-squares line in u in [-1, 1] over the existing samples.
   double squares = 0.0, u_sum = 0.0, u_squares = 0.0, product = 0.0;
@@ -162,6 +164,19 @@ std::optional<LoneSample> lone_sample(const Eigen::Ref<const Eigen::VectorXd>& x
     least = d;
   }
   return found;
+}
+
+long held_samples(const Eigen::Ref<const Eigen::VectorXd>& x) {
+  constexpr std::ptrdiff_t fewest = 64;  // values
+  constexpr double most = 0.98;          // of the stretches: a lost row changes two
+  std::vector<long> held;
+  for (Index t = 1, from = 0; t < x.size(); ++t)
+    if (x[t] != x[t - 1]) held.push_back(t - std::exchange(from, t));
+  if (std::ssize(held) < fewest) return 1;
+  std::ranges::nth_element(held, held.begin() + std::ssize(held) / 2);
+  const long usual = held[held.size() / 2];
+  const auto whole = std::ranges::count_if(held, [&](long samples) { return samples % usual == 0; });  // two equal values too
+  return static_cast<double>(whole) >= most * static_cast<double>(held.size()) ? usual : 1;
 }
 
 std::vector<ChannelQuality> channel_quality(const Samples& data, const std::vector<std::string>& channels,

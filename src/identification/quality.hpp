@@ -47,6 +47,7 @@ struct ChannelQuality {
   long samples = 0;
   long missing = 0;                        ///< samples that are NaN
   long longest_gap = 0;                    ///< longest run of missing samples
+  long held = 1;                           ///< samples in which each value stands (held_samples)
   long clipped = 0;                        ///< samples at the record's largest or smallest value (clipped_samples)
   double mean = 0.0, rms = 0.0;            ///< [channel's unit]; rms about the mean
   double drift = 0.0;                      ///< change of the fitted straight line from begin to end, in units of the rms
@@ -55,6 +56,10 @@ struct ChannelQuality {
   std::string left_out;                    ///< why the channel is not used, "" where it is
   std::optional<double> lag_s, lag_std_s;  ///< lag of its clock behind the first channel's; empty if unknown
 };
+
+/// Number of samples for which a channel holds each of its values, as a slow channel in the table of a faster one does; 1 if
+/// its values change at any sample, however rarely.
+[[nodiscard]] long held_samples(const Eigen::Ref<const Eigen::VectorXd>& x);
 
 /// @param data (n_samples × n_channels) NaN where missing @param channels  names of the columns
 [[nodiscard]] std::vector<ChannelQuality> channel_quality(const Samples& data, const std::vector<std::string>& channels,

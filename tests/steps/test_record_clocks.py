@@ -94,6 +94,13 @@ class Clocks(unittest.TestCase):
             text += "".join("".join(f"{v:13.5E}" for v in DATA[i:i + 6, c]) + "\n" for i in range(0, N, 6)) + "    -1\n"
         self.refused("P3 begins 25 samples after P1", text, file="record.uff")
 
+    def test_a_slow_channel_in_a_faster_table_is_warned_of(self):
+        words = "channel P1 holds each value for 4 samples, as one of 25 Hz in a faster table does: above 12.5 Hz"
+        slow = np.repeat(DATA[::4], 4, axis=0)
+        more = 'columns = ["column 1", "column 2", "column 3"]\n'
+        self.assertIn(words, self.run_step(slow, more=more, file="record.npy").stderr)
+        self.assertNotIn("holds each value", self.run_step(DATA, more=more, file="record.npy").stderr)
+
     def test_rows_of_another_clock_beside(self):
         self.assertIn(self.run_step(table([f"{t:.3f}" for t in T])).returncode, (0, 1))
         right = (self.folder / "out/psd.csv").read_bytes()

@@ -20,6 +20,20 @@ ChannelQuality quality_of_values(const std::vector<double>& values) {
   return channel_quality(Samples(column(values)), {"a"}, "S1", "r.csv").front();
 }
 
+// A slow channel in a faster table, also with two equal values in a row and a lost row; a quiet one in counts changes anywhere.
+TEST(ChannelQualityOf, AChannelThatHoldsItsValues) {
+  std::vector<double> held, counts;
+  for (int k = 0; k < 1200; ++k) {
+    const double value = std::sin(0.7 * (k == 40 ? 39 : k));
+    if (k != 500) held.insert(held.end(), k == 700 ? 3 : 4, value);
+    for (int row = 0; row < 4; ++row) counts.push_back(std::round(0.9 * std::sin(0.21 * (4 * k + row))));
+  }
+  EXPECT_EQ(quality_of_values(held).held, 4);
+  EXPECT_EQ(quality_of_values(held).clipped, 0);  // the largest value stands for four samples as all do
+  EXPECT_EQ(quality_of_values(counts).held, 1);
+  EXPECT_EQ(quality_of_values(std::vector<double>(100, 1.0)).held, 1);
+}
+
 // 0 … n-1 over n samples: mean (n - 1)/2, rms sqrt((n² - 1)/12), drift (n - 1)/rms.
 TEST(ChannelQualityOf, AStraightLineInClosedForm) {
   std::vector<double> line;
