@@ -25,10 +25,11 @@ std::regex value_with(const std::string& units) {
 /// "sampling rate", "sample_frequency", "sampling": the ending stands in the word that begins with "sampl" or behind it.
 /// "samples" (1) may also count them: then the number needs the unit of a rate.
 const Stated& stated_rate() {
-  static const Stated rate{std::regex(R"(sampl\w*(?:rate|freq)\w*\b|sampl\w*\b[ _-]*(?:rate|freq)\w*|sampl(es?\b)|sampl\w*)"
-                                      "|scan[ _-]*rate|abtastrate|frequenza di campionamento|frequenza_di_campionamento"
-                                      R"(|\bfs\b|\bsps\b)"),
-                           value_with("khz|hz|s/s|sps")};
+  static const Stated rate{
+      std::regex(R"(sampl\w*(?:rate|freq)\w*\b|sampl\w*\b[ _-]*(?:rate|freq)\w*|sampl(es?\b)|sampl\w*)"
+                 "|scan[ _-]*rate|abtastrate|messrate|frequenza di campionamento|frequenza_di_campionamento"
+                 R"(|\bfs\b|\bsps\b)"),
+      value_with("khz|hz|s/s|sps")};
   return rate;
 }
 

@@ -140,6 +140,7 @@ TEST(HeaderRate, LinesOfLoggers) {
   EXPECT_NEAR(rate("sampling interval = 5e-3 s"), 200.0, 1e-12);
   EXPECT_NEAR(rate("Time step: 10 ms"), 100.0, 1e-12);
   EXPECT_NEAR(rate("frequenza di campionamento = 64"), 64.0, 1e-12);
+  EXPECT_NEAR(rate("Messrate: 100,0 Hz"), 100.0, 1e-12);
   EXPECT_NEAR(rate("Scan rate, 50"), 50.0, 1e-12);
   EXPECT_NEAR(rate("Samples per channel: 12000"), 0.0, 0.0);
   EXPECT_NEAR(rate("Samples: 12000"), 0.0, 0.0);  // their number
