@@ -17,6 +17,7 @@ namespace twindeck::diagnosis {
 
 namespace {
 
+using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
 constexpr std::size_t kLeading = 6, kOfFewPlaces = 6;
@@ -37,26 +38,36 @@ VectorXd start_of_set(const LawSearch& search, const LawAccount& set) {
   return out;
 }
 
-/// Sets of the leader with one further entry, for the most promising entries at the fit with the leader in the model. Entries
-/// in `among` that promise nothing are removed, so that they are not tried in larger sets.
-std::vector<LawAccount> sets_beside(const LawSetting& setting, const LawSearch& search, const LawAccount& leader,
-                                    std::vector<const LawEntry*>& among) {
-  LawSearch beside;
+/// The entry of a search for the same candidate.
+const LawEntry* known_entry(const LawSearch& search, const LawEntry& entry) {
+  return &*std::ranges::find(search.entries, entry.candidate, &LawEntry::candidate);
+}
+
+/// Screens the entries of a search at the fit with the leader in the model. @return false if the rows cannot be weighed there
+bool screen_beside(const LawSetting& setting, const LawAccount& leader, LawSearch& beside) {
+  MatrixXd signatures = std::move(beside.system.signatures);
   beside.base = leader.with;
   beside.system = law_system(setting.plain, beside.base, setting.contrasts);
+  beside.system.signatures = std::move(signatures);
+  beside.accounts.clear();
+  if (!can_be_weighed(beside.system)) return false;
+  screen_by_law(setting, beside, OneLaw(beside.system));
+  return beside.none.weight.size() > 0;
+}
+
+/// Sets of the leader with one further entry, for the most promising entries at the fit with the leader in the model. Entries
+/// in `among` that promise nothing are removed, so that they are not tried in larger sets.
+/// @param beside  receives the screen
+std::vector<LawAccount> sets_beside(const LawSetting& setting, const LawSearch& search, const LawAccount& leader,
+                                    std::vector<const LawEntry*>& among, LawSearch& beside) {
+  beside.base = leader.with;
   collect_entries(setting, beside, each_of(among, &LawEntry::candidate));
-  const OneLaw law(beside.system);
   std::vector<LawAccount> out;
-  if (!can_be_weighed(beside.system)) return out;
-  const auto known_as = [&](const LawEntry& entry) {
-    return *std::ranges::find_if(among, [&](const LawEntry* e) { return e->candidate == entry.candidate; });
-  };
-  for (LawEntry& entry : beside.entries) entry.log_prior = known_as(entry)->log_prior;
-  screen_by_law(setting, beside, law);
-  if (beside.none.weight.size() == 0) return out;
+  for (LawEntry& entry : beside.entries) entry.log_prior = known_entry(search, entry)->log_prior;
+  if (!screen_beside(setting, leader, beside)) return out;
   std::vector<const LawEntry*> leading;
   for (const LawAccount& found : beside.accounts) {
-    const LawEntry* entry = known_as(beside.entries[static_cast<std::size_t>(found.members.front())]);
+    const LawEntry* entry = known_entry(search, beside.entries[static_cast<std::size_t>(found.members.front())]);
     if (leading.size() < kMembersOfSets) leading.push_back(entry);
     if (out.size() == kTried || found.log_weight < beside.none.log_evidence + kFarBelow) continue;
     const auto position = static_cast<int>(entry - search.entries.data());
@@ -99,20 +110,25 @@ std::vector<const LawEntry*> all_entries(const LawSearch& search) {
 }
 
 /// Looks for further causes with the leading account in the model. A large cause hides others at the base, because modes may be
-/// open there.
-void look_beside_leader(const LawSetting& setting, LawSearch& search) {
+/// open there. @return the screen of all entries beside the leading single cause
+LawSearch look_beside_leader(const LawSetting& setting, LawSearch& search) {
   std::vector<const LawEntry*> among = all_entries(search);
+  LawSearch screen;
   for (std::size_t size = 1; size < kMostInASet; ++size) {
     const auto best =
         std::ranges::find_if(search.accounts, [&](const LawAccount& a) { return a.members.size() == size && a.refined(); });
-    if (best == search.accounts.end()) return;
+    if (best == search.accounts.end()) break;
     const LawAccount leader = *best;
-    add_fitted_sets(setting, search, sets_beside(setting, search, leader, among), parameters_of(setting, leader));
+    LawSearch here;
+    add_fitted_sets(setting, search, sets_beside(setting, search, leader, among, here), parameters_of(setting, leader));
+    if (size == 1) screen = std::move(here);
   }
+  return screen;
 }
 
-/// Looks for rivals of each member of a leading set, with the other members in the model, in the whole catalogue.
-void exchange_members(const LawSetting& setting, LawSearch& search) {
+/// Looks for rivals of each member of a leading set, with the other members in the model. The whole catalogue is screened there
+/// by the changes that its entries make beside the leading single cause; for the most promising ones they are computed anew.
+void exchange_members(const LawSetting& setting, LawSearch& search, LawSearch screen) {
   if (search.accounts.empty() || !search.accounts.front().refined()) return;
   const LawAccount leader = search.accounts.front();
   for (std::size_t c = 0; leader.members.size() > 1 && c < leader.members.size(); ++c) {
@@ -126,8 +142,12 @@ void exchange_members(const LawSetting& setting, LawSearch& search) {
     }
     const VectorXd x = parameters_of(setting, leader);
     refine_by_law(setting, search, rest, {x});
-    std::vector<const LawEntry*> among = all_entries(search);
-    if (rest.refined()) add_fitted_sets(setting, search, sets_beside(setting, search, rest, among), x);
+    if (!rest.refined() || !screen_beside(setting, rest, screen)) continue;
+    std::vector<const LawEntry*> among;
+    for (std::size_t i = 0; i < std::min(kMembersOfSets, screen.accounts.size()); ++i)
+      among.push_back(known_entry(search, screen.entries[static_cast<std::size_t>(screen.accounts[i].members.front())]));
+    LawSearch here;
+    add_fitted_sets(setting, search, sets_beside(setting, search, rest, among, here), x);
   }
 }
 
@@ -291,9 +311,9 @@ LawSearch search_by_law(const LawSetting& setting, const Fit& base) {
       setting.progress, sets);
   for (LawAccount& account : sets) out.accounts.push_back(std::move(account));
   sort_accounts(out.accounts);
-  look_beside_leader(setting, out);
+  LawSearch screen = look_beside_leader(setting, out);
   settle_rivals(setting, out);
-  exchange_members(setting, out);
+  exchange_members(setting, out, std::move(screen));
   settle_rivals(setting, out);
   // "Nothing" is fitted from the leader's parameters too, because a better start must not look like a cause.
   if (!out.accounts.empty() && out.accounts.front().refined())
