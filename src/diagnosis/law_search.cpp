@@ -86,19 +86,22 @@ std::vector<LawAccount> sets_beside(const LawSetting& setting, const LawSearch& 
   return out;
 }
 
-/// Fits sets from given parameters and adds them to the accounts; the better of two equal sets is kept.
+/// Adds an account; the better of two with the same members is kept.
+void keep_better(LawSearch& search, LawAccount account) {
+  const auto same = std::ranges::find_if(
+      search.accounts, [&](const LawAccount& a) { return std::ranges::is_permutation(a.members, account.members); });
+  if (same == search.accounts.end())
+    search.accounts.push_back(std::move(account));
+  else if (account.log_weight > same->log_weight)
+    *same = std::move(account);
+}
+
+/// Fits sets from given parameters and adds them to the accounts.
 void add_fitted_sets(const LawSetting& setting, LawSearch& search, std::vector<LawAccount> sets, const VectorXd& x) {
   parallel_for_told(
       sets.size(), [&](std::size_t i) { refine_by_law(setting, search, sets[i], {x}); },
       [&](int done, int of) { setting.progress("further causes fitted", done, of); });
-  for (LawAccount& set : sets) {
-    const auto same = std::ranges::find_if(
-        search.accounts, [&](const LawAccount& a) { return std::ranges::is_permutation(a.members, set.members); });
-    if (same == search.accounts.end())
-      search.accounts.push_back(std::move(set));
-    else if (set.log_weight > same->log_weight)
-      *same = std::move(set);
-  }
+  for (LawAccount& set : sets) keep_better(search, std::move(set));
   std::erase_if(search.accounts, [](const LawAccount& a) { return a.members.size() > 1 && !a.scored; });
   sort_accounts(search.accounts);
 }
@@ -126,8 +129,9 @@ LawSearch look_beside_leader(const LawSetting& setting, LawSearch& search) {
   return screen;
 }
 
-/// Looks for rivals of each member of a leading set, with the other members in the model. The whole catalogue is screened there
-/// by the changes that its entries make beside the leading single cause; for the most promising ones they are computed anew.
+/// Looks for rivals of each member of a leading set, with the other members in the model; without any rival these are an
+/// account too, because the set may lead though the member explains little. The whole catalogue is screened there by the
+/// changes that its entries make beside the leading single cause; for the most promising ones they are computed anew.
 void exchange_members(const LawSetting& setting, LawSearch& search, LawSearch screen) {
   if (search.accounts.empty() || !search.accounts.front().refined()) return;
   const LawAccount leader = search.accounts.front();
@@ -142,7 +146,9 @@ void exchange_members(const LawSetting& setting, LawSearch& search, LawSearch sc
     }
     const VectorXd x = parameters_of(setting, leader);
     refine_by_law(setting, search, rest, {x});
-    if (!rest.refined() || !screen_beside(setting, rest, screen)) continue;
+    if (!rest.refined()) continue;
+    keep_better(search, rest);
+    if (!screen_beside(setting, rest, screen)) continue;
     std::vector<const LawEntry*> among;
     for (std::size_t i = 0; i < std::min(kMembersOfSets, screen.accounts.size()); ++i)
       among.push_back(known_entry(search, screen.entries[static_cast<std::size_t>(screen.accounts[i].members.front())]));
