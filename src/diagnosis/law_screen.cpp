@@ -101,7 +101,7 @@ class Screen {
   }
 
  private:
-  /// @param residual, changes  whitened, and in coordinates
+  /// Weighs some entries at a point. @param residual  whitened @param changes  of all entries, in the law's coordinates
   void weigh_some(const std::vector<std::size_t>& entries, const ScreenPoint& point, const OneLaw::Point& at,
                   const VectorXd& residual, const MatrixXd& changes) {
     std::vector<Index> columns;

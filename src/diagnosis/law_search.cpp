@@ -129,9 +129,9 @@ LawSearch look_beside_leader(const LawSetting& setting, LawSearch& search) {
   return screen;
 }
 
-/// Looks for rivals of each member of a leading set, with the other members in the model; without any rival these are an
-/// account too, because the set may lead though the member explains little. The whole catalogue is screened there by the
-/// changes that its entries make beside the leading single cause; for the most promising ones they are computed anew.
+/// Takes each member out of the leading set and looks for rivals with the others in the model. The others alone compete too,
+/// because they may never have been fitted. The screen gives the changes of all entries beside the leading single cause. The
+/// changes of the most promising entries are computed anew.
 void exchange_members(const LawSetting& setting, LawSearch& search, LawSearch screen) {
   if (search.accounts.empty() || !search.accounts.front().refined()) return;
   const LawAccount leader = search.accounts.front();

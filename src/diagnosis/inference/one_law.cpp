@@ -68,12 +68,14 @@ ErrorColumns ErrorColumns::of_columns(MatrixXd columns) {
   return {std::move(covariance), std::move(columns)};
 }
 
+MatrixXd covariance_at(MatrixXd sigma, const std::vector<ErrorColumns>& classes, const VectorXd& tau) {
+  for (std::size_t c = 0; c < classes.size(); ++c)
+    if (const double t = tau[static_cast<Index>(c)]; t > 0.0 && !classes[c].empty()) sigma += t * t * classes[c].covariance;
+  return sigma;
+}
+
 MatrixXd covariance_at(const LawSystem& system, const VectorXd& tau) {
-  MatrixXd out = system.sigma;
-  for (std::size_t c = 0; c < system.classes.size(); ++c)
-    if (const double t = tau[static_cast<Index>(c)]; t > 0.0 && !system.classes[c].empty())
-      out += t * t * system.classes[c].covariance;
-  return out;
+  return covariance_at(system.sigma, system.classes, tau);
 }
 
 /// A hypothesis evaluated at given scales of its active classes.
@@ -97,11 +99,7 @@ MatrixXd OneLaw::Point::whitened(MatrixXd z) const {
 OneLaw::Point OneLaw::at(const VectorXd& tau) const {
   Point out{tau, false, {}, -1e300};
   if (!coordinates_.exist()) return out;
-  MatrixXd sigma = coordinates_.sigma();
-  for (std::size_t c = 0; c < coordinates_.classes().size(); ++c)
-    if (const double t = tau[static_cast<Index>(c)]; t > 0.0 && !coordinates_.classes()[c].empty())
-      sigma += t * t * coordinates_.classes()[c].covariance;
-  out.lower = linalg::cholesky_factor(std::move(sigma));
+  out.lower = linalg::cholesky_factor(covariance_at(coordinates_.sigma(), coordinates_.classes(), tau));
   out.exists = out.lower.rows() == coordinates_.sigma().rows();
   out.log_determinant = coordinates_.log_determinant() + 2.0 * out.lower.diagonal().array().log().sum();
   return out;

@@ -32,7 +32,9 @@ struct LawSystem {
   double log_prior = 0.0;             ///< ln prior of the modes that the system holds for none of the model's
 };
 
-/// Sigma(tau) (n_rows × n_rows). @param tau  (n_classes) 0 where a class is absent
+/// Sigma(tau) (n × n). @param sigma  Sigma_0 @param tau  (n_classes) 0 where a class is absent
+[[nodiscard]] Eigen::MatrixXd covariance_at(Eigen::MatrixXd sigma, const std::vector<ErrorColumns>& classes,
+                                            const Eigen::VectorXd& tau);
 [[nodiscard]] Eigen::MatrixXd covariance_at(const LawSystem& system, const Eigen::VectorXd& tau);
 
 /// A class that is active under a hypothesis, and the scale of its half-t law.
