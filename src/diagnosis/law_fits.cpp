@@ -233,7 +233,8 @@ Fit fit_by_own_scales(const LawSetting& setting, const LawAccount& account, cons
   const LawSystem& system = *account.system;
   VectorXd tau = account.evidence.tau;
   tau[kGains] = 0.0;  // the gains are already unknowns of the fit
-  MatrixXd share = covariance_at(system, tau) - system.sigma;
+  const Index n = system.residual.size();
+  MatrixXd share = covariance_at(MatrixXd::Zero(n, n), system.classes, tau);
   for (const int row : aside) share(row, row) += kAside * kAside;
   const FeatureMap& plain = setting.plain.map();
   MatrixXd further = MatrixXd::Zero(plain.values().size(), plain.values().size());

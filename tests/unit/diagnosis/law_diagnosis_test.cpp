@@ -83,7 +83,7 @@ TEST(LawSearch, ExchangedChannelsAreTheSameRowsUnderOtherNamesToTheLaw) {
   ASSERT_EQ(leader.causes.size(), 1U);
   EXPECT_EQ(leader.causes.front().candidate->id(), "swap@channels:c3,c7");
   EXPECT_TRUE(leader.refined());
-  EXPECT_NEAR(leader.evidence.log_evidence, of_right.none.log_evidence, 0.05);
+  EXPECT_NEAR(leader.evidence.log_evidence, of_right.nothing.evidence.log_evidence, 0.05);
   EXPECT_GT(leader.log_weight, of_wrong.none.log_evidence + 20.0);
 }
 
