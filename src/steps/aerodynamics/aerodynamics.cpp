@@ -181,8 +181,6 @@ void write_summary(const AerodynamicsConfig& config, const aero::WindModel& mode
 /// Quantity that the level of a set multiplies, in words.
 std::string fitted_quantity(const std::string& set) { return set == "standin" ? "self-excited forces" : "lift slope"; }
 
-/// sets.csv, critical.csv, damping.csv, nodes.csv, static.csv, rules.csv, equations.csv, galloping.csv, polars.csv,
-/// summary.csv.
 void write_tables(const AerodynamicsConfig& config, const aero::WindModel& model, const WindOutcome& found,
                   const std::filesystem::path& folder) {
   io::CsvWriter levels({"set", "level", "fitted_quantity", "fitted_model", "fitted_speed_m_s"});

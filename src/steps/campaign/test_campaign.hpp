@@ -16,9 +16,8 @@ struct CampaignConfig : ponte::CampaignSettings {
 ///     records/<setup>/<condition>_<kind><n>.npy   samples × channels, single precision, m/s²
 ///     campaign.toml, channels.csv, conditions.toml   as docs/my_records.md has them
 ///
-/// and the true values, for scorers only: truth/modes.csv (`condition,mode,frequency_Hz,damping_ratio_pct,stay_share` and a
-/// column `participation_<setup>` for each setup of the condition; modes below 3 Hz; `mode` is empty if Table 4 does not name
-/// it), truth/shapes.csv (`condition,mode,channel,value,value_imag` of the named modes), truth/stays.csv, truth/dampers.csv.
+/// and the true values, for scorers only: truth/modes.csv and truth/participation.csv (modes below 3 Hz; `mode` is empty if
+/// Table 4 does not name it), truth/shapes.csv (of the named modes), truth/stays.csv, truth/dampers.csv.
 /// With --calibrate: corrections.csv alone, the factors with which the bridge has the named frequencies.
 [[nodiscard]] runner::Computation read_test_campaign(runner::StepContext& context, const ponte::CampaignSettings& settings);
 

@@ -215,8 +215,7 @@ void write_residuals(const Inference& inference, const Diagnosis& result, const 
   csv.save(file);
 }
 
-/// hypotheses.csv: `cause,location,log_odds,screen,signature_sigma,status`: all entries of the catalogue in the order of their
-/// odds, and the families that these data cannot show, with the reason.
+/// All entries of the catalogue in the order of their odds, and the families that these data cannot show, with the reason.
 void write_hypotheses(const Diagnosis& result, const std::vector<diagnosis::Invisible>& invisible,
                       const std::filesystem::path& file) {
   io::CsvWriter csv({"cause", "location", "log_odds", "screen", "signature_sigma", "status"});
@@ -234,7 +233,7 @@ std::set<int> not_compared(const Diagnosis& result) {
   return open;
 }
 
-/// gain.csv: `type,mode,condition,rows,before,after`: RMS of standardised residuals of held-out rows by kind.
+/// RMS of standardised residuals of held-out rows by kind.
 void write_gain(const Inference& inference, const Diagnosis& result, const std::filesystem::path& file) {
   io::CsvWriter csv({"type", "mode", "condition", "rows", "before", "after"});
   const auto& features = inference.map().features();
@@ -259,7 +258,7 @@ void write_gain(const Inference& inference, const Diagnosis& result, const std::
   csv.save(file);
 }
 
-/// parameters.csv: `unknown,before,after,shrinkage,bound`: in units of the prior deviation; shrinkage 1 - posterior variance.
+/// In units of the prior deviation; shrinkage 1 - posterior variance.
 void write_unknowns(const Inference& inference, const Diagnosis& result, const std::filesystem::path& file) {
   io::CsvWriter csv({"unknown", "before", "after", "shrinkage", "bound"});
   const auto& nuisances = inference.map().nuisances();
@@ -275,9 +274,8 @@ void write_unknowns(const Inference& inference, const Diagnosis& result, const s
   csv.save(file);
 }
 
-/// pairs.csv: `mode,condition,measured_Hz,before_Hz,after_Hz,mac_before,mac_after,given_Hz,mac_given`: each measured mode with
-/// the model's that it is compared with, fitted without and with the causes, and as the step read it; MAC over the channels of
-/// that mode.
+/// Each measured mode with the model's that it is compared with, fitted without and with the causes, and as the step read it;
+/// MAC over the channels of that mode.
 void write_pairs(const Inference& inference, const Diagnosis& result, const std::filesystem::path& file) {
   io::CsvWriter csv(
       {"mode", "condition", "measured_Hz", "before_Hz", "after_Hz", "mac_before", "mac_after", "given_Hz", "mac_given"});
@@ -295,8 +293,7 @@ void write_pairs(const Inference& inference, const Diagnosis& result, const std:
   csv.save(file);
 }
 
-/// misfit.csv: `by,name,rows,mean_square_before,mean_square_after`: of standardised residuals by type, condition, mode,
-/// channel.
+/// Mean squares of standardised residuals by type, condition, mode, channel.
 void write_misfit(const Inference& inference, const Diagnosis& result, const std::filesystem::path& file) {
   io::CsvWriter csv({"by", "name", "rows", "mean_square_before", "mean_square_after"});
   const auto& features = inference.map().features();

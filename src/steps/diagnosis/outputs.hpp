@@ -32,7 +32,6 @@ void write_diagnosis(const diagnosis::Diagnosis& result, const std::vector<diagn
 void write_tables(const diagnosis::Inference& inference, const diagnosis::Instantiated& entries,
                   const diagnosis::Diagnosis& result, const std::filesystem::path& out);
 
-/// plan.csv: `cause,location,unknown,smallest,unit,sigma,best_imitation,separation_sigma,status`.
 void write_plan(const diagnosis::Inference& inference, const std::vector<diagnosis::Invisible>& invisible,
                 const std::filesystem::path& file);
 

@@ -14,20 +14,13 @@ namespace twindeck::steps {
 /// The part of a structure that a group of elements or springs belongs to.
 using PartOf = std::function<std::string(const std::string& group)>;
 
-/// Tables of a model; each of a matrix model, which has no such parts, is a header only.
-///
-/// stays.csv: `stay,group,length_m,pull_N,site_pull_N,stress_Pa,equivalent_modulus_Pa,deviation_from_site_pct`. Length between
-/// the nodes; cable force of the prestress state; site value if the model gives one (Element::pull_N > 0); stress T/A; Ernst's
-/// tangent modulus at that stress.
-///
-/// member_forces.csv: `element,group,x_m,y_m,z_m,length_m,axial_force_N` of every beam and bar under dead load and cable
-/// forces: middle and length between the ends (nodes and offsets), axial force, tension positive.
-///
-/// dampers.csv: `damper,group,damping_N_s_m,stiffness_N_m,arrangement` of the springs whose group begins with "damper";
-/// arrangement viscous (no spring), parallel (Kelvin) or series (Maxwell).
-///
-/// summary.csv: `quantity,value,unit`: degrees of freedom, nodes, elements of each type, springs, links, masses, parameters;
-/// and, where parts are known, nodes, elements of each type and springs of each part ("shells_decks").
+/// Tables of a model; each of a matrix model, which has no such parts, is a header only. paper/twindeck_reference/columns.toml
+/// says what each column holds.
+///  - stays.csv: cable force of the prestress state; site value if the model gives one (Element::pull_N > 0)
+///  - member_forces.csv: every beam and bar under dead load and cable forces; its ends are nodes and offsets
+///  - dampers.csv: the springs whose group begins with "damper"
+///  - summary.csv: degrees of freedom, nodes, elements of each type, springs, links, masses, parameters; and, where parts are
+///    known, nodes, elements of each type and springs of each part ("shells_decks")
 /// @param part_of  empty: parts are not known
 void write_model_tables(const dynamics::LoadedModel& loaded, const PartOf& part_of, const std::filesystem::path& folder);
 

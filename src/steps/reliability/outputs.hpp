@@ -8,10 +8,10 @@
 #include "reliability/bridge_reliability.hpp"
 #include "steps/reliability/inputs.hpp"
 
-/// What s10_reliability writes.
+/// What s10_reliability writes. paper/twindeck_reference/columns.toml says what each column holds.
 namespace twindeck::steps {
 
-/// random.csv: `name,law,mean,deviation,low,high,label,source`, each input in its own unit.
+/// random.csv: each input in its own unit.
 void write_random(const reliability::RandomVector& random, const std::filesystem::path& folder);
 
 /// The structure of a row. Its columns are `years,dampers,fault`: dampers off or on, fault empty or "C1 held".
@@ -37,14 +37,11 @@ struct FragilityRow {
   std::string unit;
   reliability::Excursion excursion;
 };
-/// crossings.csv: `limit_state,model,CASE,speed_m_s,place,limit,deviation,unit,crossing_rate_Hz,poisson,vanmarcke,low,high`:
-/// one row per limit state, at the location with the largest response. fragility.csv:
-/// `limit_state,model,CASE,speed_m_s,probability,low,high`.
+/// crossings.csv: one row per limit state, at the location with the largest response. fragility.csv: its probability.
 void write_fragility(const std::vector<FragilityRow>& rows, const std::filesystem::path& folder);
 
-/// responses.csv: `model,CASE,speed_m_s,channel,direction,deviation,unit,mean_rate_Hz,bandwidth`: accelerations at all inputs'
-/// medians, at the monitoring points in x, y, z and at every third aerodynamic node across the deck and vertically; forces of
-/// stays and strokes of dampers.
+/// responses.csv, at all inputs' medians: accelerations at the monitoring points in x, y, z and at every third aerodynamic node
+/// across the deck and vertically; forces of stays and strokes of dampers.
 struct ResponseRow {
   std::string model;
   Case of;
@@ -58,15 +55,13 @@ struct CriticalRow {
   Case of;
   reliability::CriticalSpeed speed;
 };
-/// critical.csv: `model,CASE,speed_m_s,low_m_s,high_m_s,deviation_pct,design_speed_m_s,probability_below_design,beta`, low and
-/// high the 5 and 95 % quantiles; empty where the bridge is stable. importance.csv:
-/// `model,CASE,input,slope_per_deviation_pct,importance`: the share of the variance of ln V_cr, which is the squared direction
-/// cosine of FORM's design point.
+/// critical.csv: critical speeds, empty where the bridge is stable. importance.csv: what each input contributes to their
+/// scatter.
 void write_critical(const std::vector<CriticalRow>& speeds, const reliability::RandomVector& random, double design_speed_m_s,
                     const std::filesystem::path& folder);
 
-/// years.csv: `CASE,quantity,place,value,low,high,unit`: frequencies, critical speeds, static forces of stays, remaining share
-/// of each section. low and high are the 5 and 95 % quantiles, empty where no spread was computed.
+/// years.csv: frequencies, critical speeds, static forces of stays, remaining share of each section. low and high are the 5 and
+/// 95 % quantiles, empty where no spread was computed.
 struct YearRow {
   Case of;
   std::string quantity, place, unit;
@@ -75,9 +70,7 @@ struct YearRow {
 };
 void write_years(const std::vector<YearRow>& rows, const std::filesystem::path& folder);
 
-/// rare.csv, where the configuration asks for it:
-/// `limit_state,model,CASE,speed_m_s,method,probability,beta,variation,calls,note`, FORM and subset simulation of an excursion,
-/// each with a note on its doubts.
+/// rare.csv, where the configuration asks for it: FORM and subset simulation of an excursion, each with a note on its doubts.
 struct RareRow {
   std::string limit_state, model;
   Case of;
@@ -90,9 +83,8 @@ struct RareRow {
 };
 void write_rare(const std::vector<RareRow>& rows, const std::filesystem::path& folder);
 
-/// fatigue.csv: `stay,model,CASE,speed_m_s,stress_deviation_Pa,damage_per_hour,narrow_band_per_hour`. annual.csv, only where
-/// the configuration gives a wind law: `quantity,CASE,place,value,upper,unit`: hours and probabilities per year, and damage of
-/// stays per year with its narrow-band bound in `upper`.
+/// fatigue.csv: damage of stays. annual.csv, only where the configuration gives a wind law: hours and probabilities per year,
+/// and damage of stays per year with its narrow-band bound in `upper`.
 struct FatigueRow {
   std::string stay, model;
   Case of;
@@ -108,11 +100,9 @@ struct AnnualRow {
 };
 void write_annual(const std::vector<AnnualRow>& rows, const std::filesystem::path& folder);
 
-/// visible.csv, a row a section of each wall:
-/// `wall,section,wall_thickness_m,smallest_loss_m,share_pct,years,located_loss_m,distance,mode,change_pct`: the smallest loss
-/// of a surface that two measurements of the frequencies show, the year in which it is reached, the smallest loss that is
-/// distinguished from losses of other walls, and the mode with the largest change. visible_modes.csv:
-/// `wall,experimental_mode,numerical_mode,deviation_pct,change_pct`.
+/// visible.csv, a row a section of each wall: the smallest loss of a surface that two measurements of the frequencies show, the
+/// year in which it is reached, the smallest loss that is distinguished from losses of other walls, and the mode with the
+/// largest change. visible_modes.csv: the change of each mode.
 void write_visible(const std::vector<reliability::VisibleLoss>& losses, const std::vector<reliability::Wall>& walls,
                    const std::vector<MonitoredName>& monitored, const std::filesystem::path& folder);
 

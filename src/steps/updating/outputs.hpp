@@ -19,25 +19,19 @@ struct Update {
   [[nodiscard]] const fe::Parameter& parameter(std::size_t j) const { return parameters[static_cast<std::size_t>(active[j])]; }
 };
 
-/// Writes
-///  - `parameters.csv`: parameter,unit,initial_value,final_value,change_pct,lower,upper,bound (lower|upper|none), one row an
-///    updated parameter; change_pct is empty where the initial value is 0
-///  - `smooth_bounds.csv`: parameter,unit,final_value,smooth_bounds_value,difference_of_range: the best start's problem solved
-///    again without projection (updating/problem.hpp); no file where no start converged
-///  - `history.csv`: start,outer,iteration,cost,projected_gradient,step_norm,trust_radius and the normalised parameters, one
-///  row
-///    an accepted step
-///  - `starts.csv`: start,cost,projected_gradient_relative,iterations,converged,optimum,message and the final normalised
-///    parameters; `optimum` numbers the distinct optima from 1, best first; empty for a start that did not converge
-///  - `costs.csv`: point,cost: what the initial values (`start`), another updating's values (`published`, where they are given)
-///    and the best start's end (`optimum`) cost in this model, each in balance
-///  - `leave_one_out.csv`: experimental_mode,numerical_mode,measured_Hz,before_Hz,fitted_Hz,predicted_Hz,error_before_pct,
-///    error_fitted_pct,error_predicted_pct,parameters_on_bounds,followed_mac,converged, one row a pair: without updating,
-///    fitted with all pairs, and predicted by an update to the other pairs; no file where no pair was left out
+/// Writes (paper/twindeck_reference/columns.toml says what each column holds)
+///  - `parameters.csv`, one row an updated parameter; change_pct is empty where the initial value is 0
+///  - `smooth_bounds.csv`: the best start's problem solved again without projection (updating/problem.hpp); no file where no
+///    start converged
+///  - `history.csv`, one row an accepted step, with the normalised parameters
+///  - `starts.csv`, with the final normalised parameters; `optimum` numbers the distinct optima from 1, best first; empty for a
+///    start that did not converge
+///  - `costs.csv`: what the points cost in this model, each in balance
+///  - `leave_one_out.csv`, one row a pair; no file where no pair was left out
 ///  - if these predictions are worse than those without updating: `regularised.csv`, as parameters.csv, and
 ///    `leave_one_out_regularised.csv`, as leave_one_out.csv, of the update that is held to the ranges (updating/prior.hpp); the
 ///    manifest has a warning that says how much each predicts
-///  - `summary.csv`: quantity,value,unit. mean_abs_error_before_pct and _after_pct over all pairs; the same with _common over
+///  - `summary.csv`: mean_abs_error_before_pct and _after_pct over all pairs; the same with _common over
 ///    the measured modes `common` (those that an earlier table compares too), so that means are over like and like; of left-out
 ///    pairs, where there are any; cost and optimality of the best start, and its cost by a smooth map of the bounds; numbers of
 ///    starts, of distinct optima, of parameters on a bound
@@ -59,14 +53,11 @@ void warn_of_fit(Reporter& reporter, const matching::Measured& measured, const s
 [[nodiscard]] std::vector<std::string> report_lines(const Update& of);
 
 /// Writes, for an update with converged modes whose paired frequencies have standard deviations,
-///  - `posterior.csv`: parameter,unit,final_value,std,std_with_misfit,prior_std,held,label; std empty for a parameter held by
-///  its bound; label `identified` where the rows were weighed by their covariance, `assumed` where all frequencies weighed
-///  alike
-///  - `correlations.csv`: parameter,other_parameter,correlation, one row a pair of free parameters
+///  - `posterior.csv`: std empty for a parameter held by its bound; label `identified` where the rows were weighed by their
+///    covariance, `assumed` where all frequencies weighed alike
+///  - `correlations.csv`, one row a pair of free parameters
 /// and for an update with weighed rows
-///  - `weighed_rows.csv`:
-///  type,experimental_mode,numerical_mode,channel,value,std,computed_start,computed_updated,difference_std
-///  - `weighing.csv`: quantity,value,unit: chi_squared, degrees_of_freedom, misfit, rows, free_scales
+///  - `weighed_rows.csv` and `weighing.csv`
 /// and says in words how well the model agrees, what cannot be told apart, and which directions are flat. Without weighed rows
 /// it tells which directions are flat and what the data do not determine.
 void report_weighing(runner::StepContext& context, const updating::Weighed& weighed);

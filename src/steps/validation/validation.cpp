@@ -85,7 +85,6 @@ void write_rms(const std::vector<buffeting::RunResult>& results, const buffeting
   csv.save(folder / "rms.csv");
 }
 
-/// statements.csv: `statement,found,verdict`, hit or miss.
 void write_statements(const std::vector<buffeting::PaperStatement>& statements, const std::filesystem::path& folder) {
   io::CsvWriter csv({"statement", "found", "verdict"});
   for (const buffeting::PaperStatement& said : statements) csv.row({said.statement, said.found, said.holds ? "hit" : "miss"});
@@ -180,7 +179,6 @@ void write_hybrid(const buffeting::BridgeInWind& bridge, const std::filesystem::
   nodes.save(folder / "hybrid_nodes.csv");
 }
 
-/// rms.csv, statements.csv, comfort.csv, wind_check.csv, hybrid.csv, hybrid_nodes.csv, checks.csv.
 void write_tables(const ValidationOutcome& found, const buffeting::BridgeInWind& bridge, const buffeting::MeasuredRms& measured,
                   const ValidationConfig& config, const std::filesystem::path& folder) {
   write_rms(found.results, bridge, measured, config, folder);
