@@ -37,8 +37,6 @@ BoundedOptions bounded_options(const Search& search, double reference, const Eig
           search.options.bound_tolerance, search.definition.residual_unit(jacobian)};
 }
 
-// Bounded solves on the full system at frozen prestress. The prestress is computed anew between them, until no parameter
-// changes by more than the tolerance.
 void search_full(const Search& search, Eigen::VectorXd x, SharedSystem system, double reference, int start, SearchEnd& out) {
   const int n_residuals = search.definition.n_residuals();
   StartResult& result = out.result;

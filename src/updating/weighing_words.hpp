@@ -45,11 +45,9 @@ void say_flat_frequencies(Reporter& reporter, const Weighed& weighed, const Post
 /// Warns of undetermined parameters, with any weights.
 void warn_of_undetermined(Reporter& reporter, const Weighed& weighed);
 
-/// Parameters that the paired frequencies cannot tell apart at the model's initial values, in sets: the change of the
-/// frequencies by one parameter over half its range equals a multiple of the change by another, to within one standard
-/// deviation of all frequencies together. An example is the two halves of a symmetric structure. A parameter that moves the
-/// frequencies by less than one deviation is in no set. Exact derivatives (sensitivity::frequency_jacobian), in the scaling of
-/// step 5's selection.
+/// Parameters that the paired frequencies cannot tell apart at the model's initial values, in sets as those of
+/// indistinct_sets. An example is the two halves of a symmetric structure. Exact derivatives (sensitivity::frequency_jacobian),
+/// in the scaling of step 5's selection.
 /// @param active  positions of the updated parameters
 /// @return names, each set in the order of the model; empty where all can be told apart
 [[nodiscard]] std::vector<std::vector<std::string>> indistinct_parameters(const dynamics::LoadedModel& loaded,

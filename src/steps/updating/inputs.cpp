@@ -33,8 +33,6 @@ std::vector<std::string> selected_by_sensitivity(runner::StepContext& context) {
 
 bool has_range(const fe::Parameter& parameter) { return parameter.lower < parameter.upper; }
 
-/// Positions of the parameters of these names.
-/// @throws InputError  for a name that is no parameter, is listed twice or has no range
 std::vector<int> positions_of(const std::vector<std::string>& names, const dynamics::ReadModel& model) {
   const std::vector<fe::Parameter>& parameters = model.parameters();
   std::vector<std::string> known = each_of(parameters, &fe::Parameter::name);
@@ -56,8 +54,6 @@ std::vector<int> positions_of(const std::vector<std::string>& names, const dynam
   return active;
 }
 
-/// Positions of the parameters to update: as listed, as s5_sensitivity selected them, or all that have a range.
-/// @throws InputError  as positions_of; where there is none
 std::vector<int> active_parameters(const UpdatingConfig& config, const dynamics::ReadModel& model,
                                    runner::StepContext& context) {
   const bool from_s5 = config.parameters_from == "s5_sensitivity";
