@@ -53,13 +53,11 @@ fs::path source_tree() {
 std::string resolve(const fs::path& git, const std::string& reference) {
   fs::path common = git;
   if (const std::string line = first_line(git / "commondir"); !line.empty()) common = git / line;
-  for (const fs::path& folder : {git, common}) {
+  for (const fs::path& folder : {git, common})
     if (const std::string hash = first_line(folder / reference); !hash.empty()) return hash;
-  }
   std::ifstream packed(common / "packed-refs");
-  for (std::string line; std::getline(packed, line);) {
+  for (std::string line; std::getline(packed, line);)
     if (line.size() > 41 && line.substr(41) == reference) return line.substr(0, 40);
-  }
   return "";
 }
 
@@ -71,9 +69,8 @@ int note_library(dl_phdr_info* info, std::size_t, void* target) {
   auto& versions = *static_cast<std::map<std::string, std::string>*>(target);
   const std::pair<const char*, const char*> wanted[] = {
       {"libceres", "Ceres"}, {"libcholmod", "CHOLMOD"}, {"libopenblas", "OpenBLAS"}, {"libblas", "BLAS"}};
-  for (const auto& [stem, name] : wanted) {
+  for (const auto& [stem, name] : wanted)
     if (file.filename().string().starts_with(stem)) versions[name] = file.filename().string();
-  }
   return 0;
 }
 

@@ -27,9 +27,8 @@ std::size_t utf8_letter(std::string_view text, std::size_t at) {
   const auto first = static_cast<unsigned char>(text[at]);
   const std::size_t bytes = first < 0x80 ? 1 : first >> 5U == 6 ? 2 : first >> 4U == 14 ? 3 : first >> 3U == 30 ? 4 : 0;
   if (bytes == 0 || at + bytes > text.size()) return 0;
-  for (std::size_t k = 1; k < bytes; ++k) {
+  for (std::size_t k = 1; k < bytes; ++k)
     if ((static_cast<unsigned char>(text[at + k]) & 0xC0U) != 0x80U) return 0;
-  }
   constexpr std::array<std::uint32_t, 5> smallest = {0, 0, 0x80, 0x800, 0x10000};  // a longer form than needed is no UTF-8
   const std::uint32_t code = code_point(text.substr(at, bytes));
   const bool surrogate = code >= 0xD800 && code <= 0xDFFF;

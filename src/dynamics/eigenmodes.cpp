@@ -11,9 +11,8 @@ namespace twindeck::dynamics {
 double free_structure_shift(const linalg::SparseMatrix& stiffness, const linalg::SparseMatrix& mass) {
   const Eigen::VectorXd k = stiffness.diagonal(), m = mass.diagonal();
   double least = 0.0;
-  for (Eigen::Index i = 0; i < k.size(); ++i) {
+  for (Eigen::Index i = 0; i < k.size(); ++i)
     if (m[i] > 0.0 && k[i] > 0.0 && (least == 0.0 || k[i] / m[i] < least)) least = k[i] / m[i];
-  }
   return -1e-4 * least;
 }
 

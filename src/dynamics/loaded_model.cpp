@@ -19,9 +19,7 @@ LoadedModel prestressed(const ReadModel& read) {
   loaded.state = loaded.structure->prestress(loaded.theta);
   loaded.system = loaded.structure->system(loaded.state);
   // A prestress is found on the structure without its stays, which refuses a mechanism already.
-  if (loaded.model->prestress.rule == fe::PullRule::none) {
-    fe::check_no_mechanism(loaded.system, loaded.theta, loaded.source);
-  }
+  if (loaded.model->prestress.rule == fe::PullRule::none) fe::check_no_mechanism(loaded.system, loaded.theta, loaded.source);
   return loaded;
 }
 

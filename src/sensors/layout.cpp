@@ -23,9 +23,8 @@ LayoutChannel channel_at(const LayoutPoint& point, const std::string& direction,
 
 std::vector<std::string> setup_names(const std::vector<LayoutChannel>& all) {
   std::vector<std::string> names;
-  for (const LayoutChannel& channel : all) {
+  for (const LayoutChannel& channel : all)
     if (!contains(names, channel.setup)) names.push_back(channel.setup);
-  }
   return names;
 }
 

@@ -26,12 +26,10 @@ Eigen::VectorXd sums_of_block(const Eigen::Ref<const Eigen::MatrixXd>& data, con
   Eigen::MatrixXcd outputs(n_outputs, n_frequencies), inputs(n_references, n_frequencies);
   for (Index at = begin; at < end; at += length) {
     const Index n = std::min(length, end - at);
-    for (Index c = 0; c < n_outputs; ++c) {
+    for (Index c = 0; c < n_outputs; ++c)
       outputs.row(c) = fft.forward(data.col(c).segment(at, std::min(n + n_lags - 1, data.rows() - at))).transpose();
-    }
-    for (Index r = 0; r < n_references; ++r) {
+    for (Index r = 0; r < n_references; ++r)
       inputs.row(r) = fft.forward(data.col(references[static_cast<std::size_t>(r)]).segment(at, n)).adjoint();
-    }
     for (Index f = 0; f < n_frequencies; ++f) {
       Eigen::Map<Eigen::MatrixXcd>(spectrum.col(f).data(), n_outputs, n_references).noalias() +=
           outputs.col(f) * inputs.col(f).transpose();

@@ -82,9 +82,8 @@ void RealFft::sum_of_waves(const std::complex<double>* waves, Index first, Index
 Index fast_fft_size(Index wanted) {
   for (Index n = std::max<Index>(wanted, 1);; ++n) {
     Index rest = n;
-    for (const Index prime : {2, 3, 5}) {
+    for (const Index prime : {2, 3, 5})
       while (rest % prime == 0) rest /= prime;
-    }
     if (rest == 1) return n;
   }
 }

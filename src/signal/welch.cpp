@@ -30,9 +30,8 @@ void check(Index n_samples, const WelchOptions& options) {
                      fmt::format("is {} samples, expected 8 to {}, the length of the record", options.segment, n_samples),
                      "give a shorter segment of the Welch average");
   }
-  if (!(options.overlap >= 0.0 && options.overlap <= 0.95)) {
+  if (!(options.overlap >= 0.0 && options.overlap <= 0.95))
     throw InputError({"", 0, "overlap"}, fmt::format("is {}, expected a share in [0, 0.95]", options.overlap), "0.5 is usual");
-  }
 }
 
 /// Walks the segments: `use` is given the spectra of all channels (n_frequencies × n_channels). @return their number

@@ -39,14 +39,12 @@ bool minimise_within_thresholds(const Eigen::VectorXd& shift_N, const Eigen::Mat
   const Index n = shift_N.size();
   force_N = force_N.cwiseMin(limit_N).cwiseMax(-limit_N);
   std::vector<double> side(static_cast<std::size_t>(n), 0.0);  // +1, -1 where the unit slides
-  for (Index i = 0; i < n; ++i) {
+  for (Index i = 0; i < n; ++i)
     if (std::abs(force_N[i]) >= limit_N[i]) side[static_cast<std::size_t>(i)] = std::copysign(1.0, force_N[i]);
-  }
   for (Index iteration = 0; iteration < 100 + 20 * n; ++iteration) {
     std::vector<Index> stuck;
-    for (Index i = 0; i < n; ++i) {
+    for (Index i = 0; i < n; ++i)
       if (side[static_cast<std::size_t>(i)] == 0.0) stuck.push_back(i);
-    }
     // 1. The forces of the stuck units move towards balance, until the first of them reaches its threshold.
     if (!stuck.empty()) {
       const auto size = static_cast<Index>(stuck.size());
@@ -119,9 +117,8 @@ Newmark::Newmark(LinearSystem system, double step_s, std::vector<FrictionUnit> f
   if (!(step_s > 0.0)) throw InputError({"", 0, "time step"}, fmt::format("is {} s, expected a positive number", step_s));
   const Eigen::PartialPivLU<MatrixXd> factor(system_.mass + 0.5 * step_s * system_.damping +
                                              0.25 * step_s * step_s * system_.stiffness);
-  if (!(factor.rcond() > 1e-15)) {
+  if (!(factor.rcond() > 1e-15))
     throw InputError({"", 0, "equations of motion"}, "are singular: a coordinate has neither mass nor damping nor stiffness");
-  }
   inverse_ = factor.inverse();
   velocity_ = inverse_ * system_.damping;
   displacement_ = inverse_ * system_.stiffness;
@@ -133,9 +130,8 @@ Newmark::Newmark(LinearSystem system, double step_s, std::vector<FrictionUnit> f
     panels_.block(0, 2 * r * p + r, rows, r) = displacement_.middleRows(first, rows);
   }
   direction_ = MatrixXd::Zero(system_.size(), static_cast<Index>(friction_.size()));
-  for (std::size_t i = 0; i < friction_.size(); ++i) {
+  for (std::size_t i = 0; i < friction_.size(); ++i)
     direction_.col(static_cast<Index>(i)).head(friction_[i].direction.size()) = friction_[i].direction;
-  }
   flexibility_ = 0.25 * step_s * step_s * direction_.transpose() * inverse_ * direction_;
 }
 
@@ -196,15 +192,13 @@ void Newmark::integrate(History& out, VectorXd q, VectorXd v, VectorXd a) const 
     a.noalias() -= displacement_ * q;
     if (units > 0) {
       const VectorXd free = direction_.transpose() * (q + 0.25 * dt * dt * a);
-      if (!balance_friction(free, flexibility_, stiffness, threshold, plastic, friction) && out.status.converged) {
+      if (!balance_friction(free, flexibility_, stiffness, threshold, plastic, friction) && out.status.converged)
         out.status = {false, fmt::format("friction found no balance at step {} ({} s)", i, dt * static_cast<double>(i))};
-      }
       a.noalias() -= push * friction;
       // where a unit slips, its point of rest follows
       const VectorXd x = free - flexibility_ * friction;
-      for (Index u = 0; u < units; ++u) {
+      for (Index u = 0; u < units; ++u)
         if (stiffness[u] > 0.0) plastic[u] = x[u] - friction[u] / stiffness[u];
-      }
       out.friction_N.col(i) = friction;
     }
     q += 0.25 * dt * dt * a;
