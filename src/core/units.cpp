@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "core/letters.hpp"
+#include "core/lists.hpp"
 
 namespace twindeck {
 namespace {
@@ -79,13 +80,10 @@ std::string nearest_symbol(std::string_view name) {
     if (lower_case(symbol.name) == lower_case(name)) return symbol.name;  // "kn", "gpa", "HZ": the commonest slip
   }
   for (std::size_t cut = 1; cut < name.size(); ++cut) {  // products written without a blank: "kNm" for "kN m"
-    if (find_symbol(name.substr(0, cut)) && find_symbol(name.substr(cut))) {
+    if (find_symbol(name.substr(0, cut)) && find_symbol(name.substr(cut)))
       return std::string(name.substr(0, cut)) + " " + std::string(name.substr(cut));
-    }
   }
-  std::vector<std::string> names;
-  for (const Symbol& symbol : symbols()) names.push_back(symbol.name);
-  return nearest_name(name, names);
+  return nearest_name(name, each_of(symbols(), &Symbol::name));
 }
 
 /// Recursive descent over   product := power { (" " | "*" | "·" | "/") power },   power := ( symbol | "1" | "(" product ")" ) [
@@ -119,9 +117,8 @@ class UnitParser {
       multiply(result, power(), sign);
       ++factors;
     }
-    if (factors > 1 || text_.substr(start, at_ - start).find_first_of("^0123456789") != std::string_view::npos) {
+    if (factors > 1 || text_.substr(start, at_ - start).find_first_of("^0123456789") != std::string_view::npos)
       result.offset = 0.0;
-    }
     return result;
   }
 
@@ -241,9 +238,8 @@ double parse_quantity(std::string_view text, std::string_view field_unit, const 
   }
   const std::string_view rest = trimmed(digits.substr(static_cast<std::size_t>(end - digits.data())));
   const auto checked = [&](double result) {
-    if (!(std::abs(result) <= largest_number)) {
+    if (!(std::abs(result) <= largest_number))
       throw InputError(place, "is " + quoted + ", larger than any quantity of a structure", "correct the value or its unit");
-    }
     return result;
   };
   if (rest.empty()) return checked(value);

@@ -80,9 +80,8 @@ Scales preger_scales(const ConditionResult& result, const std::vector<Index>& re
     const Eigen::VectorXd log_rms = channel_rms(setup.conditioned.records).array().log();
     const std::vector<Index> at = positions(result, setup.conditioned.channels);
     double log_level = 0.0;
-    for (std::size_t c = 0; c < at.size(); ++c) {
+    for (std::size_t c = 0; c < at.size(); ++c)
       if (contains(references, at[c])) log_level += log_rms[static_cast<Index>(c)] / static_cast<double>(references.size());
-    }
     scales.level.push_back(std::exp(log_level));
     for (std::size_t c = 0; c < at.size(); ++c) {
       log_scale[at[c]] += log_rms[static_cast<Index>(c)] - log_level;
@@ -246,10 +245,9 @@ ConditionResult read_condition(const records::Campaign& campaign, const std::vec
 
 void merge_setups(ConditionResult& result) {
   list_channels(result);
-  std::vector<SetupModes> setups;
-  for (const SetupResult& setup : result.setups)
-    setups.push_back(
-        {setup.conditioned.setup, positions(result, setup.conditioned.channels), setup.found.modes, setup.found.deviations});
+  const auto setups = each_of(result.setups, [&](const SetupResult& setup) -> SetupModes {
+    return {setup.conditioned.setup, positions(result, setup.conditioned.channels), setup.found.modes, setup.found.deviations};
+  });
   const std::vector<Index> references = common_references(result);
   if (setups.size() > 1 && references.empty()) throw no_common_reference({}, result);
   result.modes = merge_poser(setups, static_cast<Index>(result.channels.size()), references, {});

@@ -11,6 +11,7 @@
 #include <set>
 
 #include "core/error.hpp"
+#include "core/lists.hpp"
 
 namespace twindeck::identification {
 
@@ -71,9 +72,8 @@ double unlikelihood(const Comparison& shapes, double df_Hz, double deviation_Hz,
 /// Groups of modes of different setups, nearest pairs first.
 std::vector<std::vector<Candidate>> groups(const std::vector<SetupModes>& setups, const MergingRule& rule) {
   std::vector<Candidate> all;
-  for (std::size_t s = 0; s < setups.size(); ++s) {
+  for (std::size_t s = 0; s < setups.size(); ++s)
     for (std::size_t m = 0; m < setups[s].modes.size(); ++m) all.push_back({s, m});
-  }
   struct Pair {
     double distance;
     std::size_t a, b;
@@ -107,9 +107,7 @@ std::vector<std::vector<Candidate>> groups(const std::vector<SetupModes>& setups
   }
   std::map<std::size_t, std::vector<Candidate>> sets;
   for (std::size_t i = 0; i < all.size(); ++i) sets[group[i]].push_back(all[i]);
-  std::vector<std::vector<Candidate>> result;
-  for (auto& [at, members] : sets) result.push_back(std::move(members));
-  return result;
+  return each_of(sets, [](const auto& set) { return set.second; });
 }
 
 struct Average {

@@ -70,10 +70,8 @@ double read_number(const TomlValue& node, const std::string& unit, const Range& 
 }
 
 template <typename List, typename Print>
-std::string toml_array(const List& list, Print&& print) {
-  std::string text = "[";
-  for (const auto& item : list) text += (text.size() > 1 ? ", " : "") + print(item);
-  return text + "]";
+std::string toml_array(const List& list, const Print& print) {
+  return fmt::format("[{}]", fmt::join(each_of(list, print), ", "));
 }
 
 const TomlValue::Array& as_array(const TomlValue& node, const Place& place, const std::string& of_what) {

@@ -7,6 +7,7 @@
 #include <iterator>
 
 #include "core/error.hpp"
+#include "core/lists.hpp"
 
 namespace twindeck::matching {
 
@@ -54,8 +55,7 @@ std::size_t one_of(const ModelPoints& points, std::size_t nearest, const modal::
   const Cosines cosine = stated_cosines(dof, &channel);
   const std::vector<std::size_t> possible = possible_nodes(points, there, dof.point, cosine);
   if (doubt == Doubt::refused && !move_as_one(points, possible, cosine)) {
-    std::vector<std::string> names;
-    for (const std::size_t node : possible) names.push_back(points.node[node]);
+    const auto names = each_of(possible, [&](std::size_t node) { return points.node[node]; });
     throw InputError({measured.source, 0, channel.name},
                      fmt::format("lies where the nodes {} coincide, which can move apart", fmt::join(names, ", ")),
                      fmt::format("say on which of them it stands: name '{}' in points.csv of the model, or give the node's id "
@@ -233,13 +233,9 @@ std::vector<std::size_t> possible_nodes(const ModelPoints& points, const std::ve
   for (const std::size_t node : there)
     if (points.node[node] == name) return {node};
   std::vector<std::size_t> left;
-  if (points.model != nullptr) {
-    const fe::DofMap& map = map_of(points);
-    std::copy_if(there.begin(), there.end(), std::back_inserter(left), [&](std::size_t node) { return can_move(map, node); });
-  } else {
-    std::copy_if(there.begin(), there.end(), std::back_inserter(left),
-                 [&](std::size_t node) { return has_dof_along(points, node, cosine); });
-  }
+  std::ranges::copy_if(there, std::back_inserter(left), [&](std::size_t node) {
+    return points.model != nullptr ? can_move(map_of(points), node) : has_dof_along(points, node, cosine);
+  });
   return left.empty() ? there : left;
 }
 

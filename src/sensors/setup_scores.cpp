@@ -121,12 +121,6 @@ const std::vector<std::string> kSearches = {"effective_independence", "greatest_
 
 std::string free_name(long i) { return "DC" + std::to_string(i + 1); }
 
-bool chosen(const std::vector<Index>& rows, Index candidate) { return contains(rows, candidate); }
-
-double worth_of(const MatrixXd& phi, const std::vector<Index>& rows, const Worth& worth) {
-  return worth(MatrixXd(phi(rows, Eigen::all)));
-}
-
 /// A choice must gain more than rounding: mirror images on a symmetric structure are worth the same, and two layouts of the
 /// same worth could change places for ever. Of equals the first stays.
 constexpr double kGain = 1e-12;
@@ -141,9 +135,9 @@ bool exchange_one(const MatrixXd& phi, const Worth& worth, Layout& layout) {
   for (std::size_t i = 0; i < layout.rows.size(); ++i) {
     std::vector<Index> rows = layout.rows;
     for (Index candidate = 0; candidate < phi.rows(); ++candidate) {
-      if (chosen(layout.rows, candidate)) continue;
+      if (contains(layout.rows, candidate)) continue;
       rows[i] = candidate;
-      const double found = worth_of(phi, rows, worth);
+      const double found = worth(rows_of(phi, rows));
       if (found > best + kGain) {
         best = found;
         out = i;
@@ -211,9 +205,8 @@ void append_searched(const LayoutSettings& config, const std::vector<LayoutChann
   // and from every setup above that has as many channels.
   Layout least = sensors::greedy_exchange(scaled, count, decoupling);
   std::vector<std::vector<Index>> starts = {independent};
-  for (const ScoredSetup& setup : out) {
+  for (const ScoredSetup& setup : out)
     if (std::ssize(setup.rows) == count) starts.push_back(setup.rows);
-  }
   for (const std::vector<Index>& start : starts) {
     Layout found = sensors::greedy_exchange(scaled, count, decoupling, start);
     if (found.worth > least.worth) least = std::move(found);
@@ -299,9 +292,9 @@ Layout greedy_exchange(const Eigen::Ref<const MatrixXd>& phi, Index count, const
     std::vector<Index> rows = layout.rows;
     rows.push_back(0);
     for (Index candidate = 0; candidate < all.rows(); ++candidate) {
-      if (chosen(layout.rows, candidate)) continue;
+      if (contains(layout.rows, candidate)) continue;
       rows.back() = candidate;
-      const double found = worth_of(all, rows, worth);
+      const double found = worth(rows_of(all, rows));
       if (next < 0 || found > best + kGain) {
         best = found;
         next = candidate;
@@ -309,7 +302,7 @@ Layout greedy_exchange(const Eigen::Ref<const MatrixXd>& phi, Index count, const
     }
     layout.rows.push_back(next);
   }
-  layout.worth = worth_of(all, layout.rows, worth);
+  layout.worth = worth(rows_of(all, layout.rows));
   while (exchange_one(all, worth, layout)) {
   }
   std::sort(layout.rows.begin(), layout.rows.end());

@@ -69,9 +69,7 @@ std::vector<Index> nearest_named(const BridgeState& state, const CampaignSetting
     distance.row(i).setConstant(1e6);
     distance.col(j).setConstant(1e6);
   }
-  std::vector<Index> named;
-  for (const auto& [name, mode] : mode_of) named.push_back(mode);
-  return named;
+  return each_of(mode_of, [](const auto& entry) { return entry.second; });
 }
 
 /// Refuses corrections that were found for other frequencies or for another bridge. @param state  with the corrections,
