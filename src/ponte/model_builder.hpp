@@ -16,8 +16,6 @@ class ModelBuilder {
   int add_node(const Eigen::Vector3d& x_m);
   int add_material(const fe::Material& material);
   int add_section(const fe::Section& section);
-  [[nodiscard]] int material(const std::string& name) const { return materials_.at(name); }
-  [[nodiscard]] int section(const std::string& name) const { return sections_.at(name); }
   [[nodiscard]] const Eigen::Vector3d& x(int node) const { return model.nodes[static_cast<std::size_t>(node)].x_m; }
 
   /// An element; the group has the name of its section unless told otherwise.

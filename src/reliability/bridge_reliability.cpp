@@ -172,8 +172,6 @@ std::vector<UncertainBridge::Change> UncertainBridge::changes() const {
   return out;
 }
 
-double LogLinear::at(const VectorXd& u) const { return value * std::exp(slope.dot(u)); }
-
 double CriticalSpeed::probability_below(double speed) const {
   if (!speed_m_s) return 0.0;
   const double distance = std::log(speed / speed_m_s->value), deviation = speed_m_s->deviation();

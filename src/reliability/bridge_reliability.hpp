@@ -42,9 +42,8 @@ struct UncertainBridge {
 /// A quantity as a function of u: its value, and the exact slopes of its logarithm at u = 0. Quantities of vibration are
 /// products of powers of dampings and stiffnesses, so the logarithm is close to linear.
 struct LogLinear {
-  double value = 0.0;     ///< at u = 0
-  Eigen::VectorXd slope;  ///< (dimension) d ln(value) / d u_i
-  [[nodiscard]] double at(const Eigen::VectorXd& u) const;
+  double value = 0.0;                                              ///< at u = 0
+  Eigen::VectorXd slope;                                           ///< (dimension) d ln(value) / d u_i
   [[nodiscard]] double deviation() const { return slope.norm(); }  ///< of the logarithm
 };
 
