@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <charconv>
-#include <optional>
 #include <set>
 #include <string_view>
 
@@ -13,17 +12,13 @@ namespace {
 
 constexpr std::size_t kMostDigits = 6;  ///< of a computed mode's number: no solver computes a million modes
 
-/// "<measured mode>-<number>N", the number from 1 without leading zeros; nothing for any other text.
+/// "<measured mode>-<number>N"; nothing for any other text.
 std::optional<NamedPair> parse(const std::string& entry) {
   const std::size_t dash = entry.find('-');
-  if (dash == 0 || dash == std::string::npos || !entry.ends_with('N')) return std::nullopt;
-  if (entry.find(' ') < dash) return std::nullopt;
-  const std::string digits = entry.substr(dash + 1, entry.size() - dash - 2);
-  if (digits.empty() || digits.size() > kMostDigits || digits.front() == '0') return std::nullopt;
-  if (digits.find_first_not_of("0123456789") != std::string::npos) return std::nullopt;
-  Eigen::Index number = 0;
-  std::from_chars(digits.data(), digits.data() + digits.size(), number);
-  return NamedPair{entry.substr(0, dash), number - 1};
+  if (dash == 0 || dash == std::string::npos || entry.find(' ') < dash) return std::nullopt;
+  const std::optional<Eigen::Index> numerical = numerical_position(entry.substr(dash + 1));
+  if (!numerical) return std::nullopt;
+  return NamedPair{entry.substr(0, dash), *numerical};
 }
 
 }  // namespace
@@ -41,6 +36,12 @@ bool is_mode_name(const std::string& text) {
 std::string experimental_label(const std::string& mode) { return mode.ends_with('X') ? mode : mode + "X"; }
 
 std::string numerical_label(Eigen::Index position) { return fmt::format("{}N", position + 1); }
+
+std::optional<Eigen::Index> numerical_position(const std::string& label) {
+  const std::size_t digits = label.find_first_not_of("0123456789");
+  if (digits == 0 || digits > kMostDigits || label.starts_with('0') || label.substr(digits) != "N") return std::nullopt;
+  return std::stol(label) - 1;
+}
 
 std::vector<NamedPair> read_pairs(const std::vector<std::string>& entries, Eigen::Index n_numerical, const Place& place,
                                   const std::string& more_modes) {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -16,6 +17,8 @@ namespace twindeck::matching {
 [[nodiscard]] std::string experimental_label(const std::string& mode);
 /// "8N" of the computed mode at position 7: computed modes are named by their position in the model, from 1.
 [[nodiscard]] std::string numerical_label(Eigen::Index position);
+/// The position that such a label names, 7 of "8N"; nothing for any other text ("08N").
+[[nodiscard]] std::optional<Eigen::Index> numerical_position(const std::string& label);
 
 /// One entry of a list of pairs.
 struct NamedPair {

@@ -3,12 +3,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 
 #include "buffeting/bridge_in_wind.hpp"
 #include "core/error.hpp"
 #include "io/csv.hpp"
+#include "matching/mode_name.hpp"
 #include "reliability/bridge_reliability.hpp"
 #include "steps/measured/measured_input.hpp"
 #include "steps/shared/config_parts.hpp"
@@ -274,13 +274,11 @@ std::vector<MonitoredName> read_monitored(runner::StepContext& context, const st
         io::CsvTable::read(context.input(file), {"stage", "experimental_mode", "numerical_mode"}, {}, true);
     for (std::size_t row = 0; row < table.rows(); ++row) {
       const auto at = std::ranges::find(measured->labels, table.text(row, "experimental_mode"));
-      const std::string& name = table.text(row, "numerical_mode");
-      long mode = 0;  // "3N"
-      std::from_chars(name.data(), name.data() + name.size(), mode);
-      if (table.text(row, "stage") != "after" || at == measured->labels.end() || mode < 1) continue;
+      const auto mode = matching::numerical_position(table.text(row, "numerical_mode"));
+      if (table.text(row, "stage") != "after" || at == measured->labels.end() || !mode) continue;
       const auto i = static_cast<Eigen::Index>(at - measured->labels.begin());
       const double deviation = measured->modes.frequency_std_Hz[i] / measured->modes.frequency_Hz[i];
-      if (deviation > 0.0) out.push_back({*at, {mode - 1, deviation}});
+      if (deviation > 0.0) out.push_back({*at, {*mode, deviation}});
     }
   }
   if (out.empty())

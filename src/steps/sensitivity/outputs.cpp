@@ -10,6 +10,7 @@
 #include "core/error.hpp"
 #include "core/lists.hpp"
 #include "io/csv.hpp"
+#include "matching/mode_name.hpp"
 
 namespace twindeck::steps {
 namespace {
@@ -109,11 +110,10 @@ std::vector<double> paired_modes(const std::filesystem::path& file) {
   std::set<double> modes;
   for (std::size_t row = 0; row < table.rows(); ++row) {
     const std::string label = table.text(row, "numerical_mode");  // "7N"
-    char* end = nullptr;
-    const long mode = std::strtol(label.c_str(), &end, 10);
-    if (mode < 1 || std::string(end) != "N")
+    const auto position = matching::numerical_position(label);
+    if (!position)
       table.fail(row, "numerical_mode", "is '" + label + "', expected a mode such as 7N", "run s4_refinement again");
-    modes.insert(static_cast<double>(mode));
+    modes.insert(static_cast<double>(*position + 1));
   }
   if (modes.empty())
     throw InputError({file.string(), 0, ""}, "has no pair", "see why s4_refinement paired none, or list compared_modes");

@@ -50,6 +50,9 @@ TEST(ModeName, LabelsOfModes) {
   EXPECT_EQ(experimental_label("7"), "7X");
   EXPECT_EQ(experimental_label("7X"), "7X");
   EXPECT_EQ(numerical_label(7), "8N");
+  EXPECT_EQ(numerical_position("8N"), 7);
+  for (const char* other : {"", "N", "8", "08N", "0N", "-8N", "8X", "8N ", "1234567N"})
+    EXPECT_FALSE(numerical_position(other)) << other;
 }
 
 }  // namespace
