@@ -57,8 +57,6 @@ struct DiagnosisInputs {
   std::unique_ptr<diagnosis::ReducedModel> reduced;
   long basis_modes = 0;  ///< number of modes that `reduced` was asked for
   diagnosis::FeatureSet features;
-  std::vector<records::Correction> corrected;  ///< corrections that --correct made to the features
-  std::vector<diagnosis::Hypothesis> catalogue;
   std::vector<diagnosis::Finding> account;             ///< findings from claims and rows, without odds
   diagnosis::LoadTestFiles load_tests;                 ///< files of the load tests
   std::optional<diagnosis::BarStaysEffect> bar_stays;  ///< set if stays that the model has as bars swing
@@ -238,8 +236,6 @@ std::map<std::string, int> bound_modes(const DiagnosisConfig& config, const Diag
 DiagnosisInputs prepare_diagnosis(const DiagnosisConfig& config, const DiagnosisFiles& files, runner::StepContext& context) {
   DiagnosisInputs inputs;
   inputs.features = files.features;
-  inputs.corrected = files.corrected;
-  inputs.catalogue = files.catalogue;
   const dynamics::LoadedModel loaded = dynamics::solvable(files.model);
   if (!loaded.state.status.converged) throw InputError({loaded.source, 0, ""}, loaded.state.status.message, "");
   inputs.load_tests = {loaded.source, files.folder / "channels.csv"};
@@ -350,12 +346,12 @@ Status run_diagnosis(const DiagnosisConfig& config, const DiagnosisFiles& files,
   std::vector<std::string> unmeasured;
   map.bind_modes(bound_modes(config, inputs, &unmeasured));
   if (!unmeasured.empty()) context.warn(fmt::format("pairs: no row in use has the mode of {}", fmt::join(unmeasured, ", ")));
-  diagnosis::Instantiated entries = diagnosis::instantiate(inputs.catalogue, *inputs.reduced, inputs.features);
+  diagnosis::Instantiated entries = diagnosis::instantiate(files.catalogue, *inputs.reduced, inputs.features);
   if (inputs.bar_stays) inputs.bar_stays->take_out_entries(entries);
   const diagnosis::Inference inference(map, entries.candidates);
   context.say(fmt::format("{} rows ({} held out), {} unknowns, {} entries of {} families, basis of {}",
                           inputs.features.rows.size(), inference.held_out().size(), map.nuisances().size(),
-                          entries.candidates.size(), inputs.catalogue.size(), inputs.reduced->size()));
+                          entries.candidates.size(), files.catalogue.size(), inputs.reduced->size()));
   if (context.has_flag("plan")) {
     write_plan(inference, entries.invisible, context.out / "plan.csv");
     context.say("plan.csv says what these rows would see");
@@ -390,7 +386,7 @@ Status run_diagnosis(const DiagnosisConfig& config, const DiagnosisFiles& files,
   std::vector<diagnosis::Finding> account = inputs.account;
   for (diagnosis::Finding& finding : account) finding.text = ids.in_text(finding.text);
   write_diagnosis(result, account, told, check, seconds, context.out / "diagnosis.json");
-  diagnosis::write_corrections(inputs.corrected, corrections, context.out / "corrections.toml");
+  diagnosis::write_corrections(files.corrected, corrections, context.out / "corrections.toml");
   for (const diagnosis::Finding& finding : account) context.say(finding.text);
   say_modes_explained(result, context);
   if (result.form) say_form(*result.form, context);
