@@ -6,6 +6,9 @@
 #include <iterator>
 #include <limits>
 
+#include "records/lost_rows.hpp"
+#include "records/round_rate.hpp"
+
 namespace twindeck::records {
 
 using Eigen::Index;
@@ -16,7 +19,6 @@ constexpr double kNormal = 1.4826;    ///< standard deviation of a normal distri
 constexpr double kAlone = 0.6;        ///< [samples] least gap between unshared stamps; rounding is less
 constexpr double kShared = 1.5;       ///< [packets] least gap between shared stamps, where a row's position is uncertain
 constexpr double kNoise = 20.0;       ///< robust deviations of the envelope that a gap must exceed
-constexpr double kRoundTo = 0.3;      ///< [deviations] largest change of a rate that makes it a round number
 constexpr double kRowsOfALag = 50.0;  ///< least packets between two shared stamps for a slope, certain to 2 %
 constexpr double kEvenSlopes = 0.2;   ///< [-] quartile range of slopes over their median; below it most slopes contain no gap
 constexpr std::size_t kWidest = 64;   ///< largest number of stamps that the envelope looks ahead and back
@@ -151,11 +153,12 @@ bool is_steepest(const std::vector<double>& ahead, std::size_t k, std::size_t wi
 }
 
 /// Finds missing and repeated samples with the current step. @return whether m has changed
-bool find_gaps(Search& s, std::vector<ClockGap>& gaps, Index& changes_rate) {
+/// @param full  set where many short gaps add up
+bool find_gaps(Search& s, std::vector<ClockGap>& gaps, Index& changes_rate, const FullStretches* full = nullptr) {
   const std::size_t n = s.size();
   std::vector<double> residual(n), level(n);
   for (std::size_t k = 0; k < n; ++k) residual[k] = s.time[k] - s.step * s.row[k];
-  const Envelope envelope = envelope_of(residual, s);
+  const Envelope envelope = full ? Envelope{.least = kShared * full->constant} : envelope_of(residual, s);
   const std::vector<double> ahead = lowest_ahead(residual, envelope.width);
   std::vector<Index> missing(n, 0);
   std::vector<std::size_t> at;
@@ -165,7 +168,8 @@ bool find_gaps(Search& s, std::vector<ClockGap>& gaps, Index& changes_rate) {
   const std::size_t begin = s.begin();
   level[begin] = residual[begin];
   for (std::size_t k = begin + 1; k < n; ++k) {
-    const std::size_t back = std::max(begin, k < envelope.width ? 0 : k - envelope.width);
+    const std::size_t reach = std::max(envelope.width, full ? full->stamps / 2 : 0),
+                      back = std::max(begin, k < reach ? 0 : k - reach);
     const double behind = *std::min_element(level.begin() + static_cast<long>(back), level.begin() + static_cast<long>(k));
     // At either end of the record the minimum is over fewer residuals and is less certain.
     const auto least = [&](std::size_t seen) {
@@ -184,7 +188,7 @@ bool find_gaps(Search& s, std::vector<ClockGap>& gaps, Index& changes_rate) {
       shift += static_cast<double>(count) * s.step;
       missing[k] = count;
       at.push_back(k);
-      if (at.size() >= kStretch / 2 && k - at[at.size() - kStretch / 2] < kStretch && changes_rate < 0)
+      if (!full && at.size() >= kStretch / 2 && k - at[at.size() - kStretch / 2] < kStretch && changes_rate < 0)
         changes_rate = static_cast<Index>(s.row[at[at.size() - kStretch / 2]]);
     }
     level[k] = residual[k] - shift;
@@ -315,17 +319,6 @@ Index other_rate_from(const Search& s) {
     after = with(after, k, -1.0);
   }
   return static_cast<Index>(s.row[at]);
-}
-
-/// The number with the fewest digits within `kRoundTo` deviations. Loggers run at round rates, which the digits of stamps hide.
-double round_rate(double rate, double deviation) {
-  const double tolerance = std::max(kRoundTo * deviation, 1e-7 * rate);
-  for (int digits = 1; digits < 12; ++digits) {
-    const double unit = std::pow(10.0, std::floor(std::log10(rate)) + 1.0 - digits);
-    const double round = unit >= 1.0 ? std::round(rate / unit) * unit : std::round(rate / unit) / std::round(1.0 / unit);
-    if (std::abs(round - rate) <= tolerance) return round;
-  }
-  return rate;
 }
 
 }  // namespace
@@ -474,6 +467,14 @@ RecordClock StampedRows::clock(double unit_s) const {
     if (found.changes_rate >= 0) break;
     line = robust_line(s);
     s.step = line.slope;
+  }
+  std::vector<double> places;
+  for (std::size_t k = 0; s.shared && found.changes_rate < 0 && k < n; ++k) places.push_back(s.place(k));
+  if (const auto full = full_stretches(s.time, places, line.slope, line.deviation, s.packet)) {
+    s.step = full->step;
+    find_gaps(s, found.gaps, found.changes_rate, &*full);
+    line = robust_line(s);
+    line.deviation = std::max(line.deviation, full->deviation);
   }
   if (found.changes_rate >= 0 || has_other_rate(s)) found.changes_rate = other_rate_from(s);
   const double tolerance = std::max(s.step, kNoise * line.scatter);
