@@ -64,7 +64,8 @@ bool is_noted(const std::string& card) {
 
 void refuse_unknown(const InpPlan& plan) {
   std::vector<std::string> known = silent_cards();
-  known.insert(known.end(), {"BOUNDARY", "TIE", "CLOAD", "DLOAD", "DSLOAD", "TEMPERATURE", "INITIAL CONDITIONS"});
+  known.insert(known.end(), {"BOUNDARY", "TIE", "NONSTRUCTURAL MASS", "CLOAD", "DLOAD", "DSLOAD", "TEMPERATURE",
+                             "INITIAL CONDITIONS"});
   for (const auto& pass : passes())
     for (const auto& [keyword, reader] : pass) known.push_back(keyword);
   std::string above;
@@ -108,12 +109,12 @@ void attach_supports(InpParts& parts, const InpPlan& plan) {
     parts.hold_along(support.at, support.name, parts.node_position.at(id), parts.node_axes.at(id), support.fixed);
 }
 
-/// Ties, when sections, links and equations are known.
-void attach_ties(InpParts& parts, const InpPlan& plan) {
+/// Ties, when sections, links and equations are known; masses on elements.
+void attach_to_elements(InpParts& parts, const InpPlan& plan) {
   for (const InpReading& reading : plan.readings) {
-    if (reading.card->keyword != "TIE") continue;
     parts.scope = reading.scope;
-    attach_inp_tie(parts, *reading.card);
+    if (reading.card->keyword == "TIE") attach_inp_tie(parts, *reading.card);
+    if (reading.card->keyword == "NONSTRUCTURAL MASS") spread_inp_mass(parts, *reading.card);
   }
 }
 
@@ -150,7 +151,7 @@ ImportedModel read_inp(const std::filesystem::path& path) {
   }
   attach_supports(parts, plan);
   attach_inp_equations(parts);
-  attach_ties(parts, plan);
+  attach_to_elements(parts, plan);
   settle_inp_constraints(parts);
   for (const auto& [id, element] : parts.elements)
     if (element.used == 0)

@@ -4,6 +4,8 @@
 
 #include <algorithm>
 
+#include "model_io/spread_mass.hpp"
+
 namespace twindeck::model_io {
 namespace {
 
@@ -152,6 +154,24 @@ void attach_inp_mass(InpParts& parts, const InpCard& card) {
     parts.model.masses.push_back(mass);
     if (!rotary) parts.point_mass_kg[element->id] = mass.mass_kg;
   }
+}
+
+void spread_inp_mass(InpParts& parts, const InpCard& card) {
+  card.allow({"ELSET", "UNITS", "DISTRIBUTION"});
+  const std::string units = upper_case(card.required("UNITS")), shares = upper_case(card.get("DISTRIBUTION"));
+  SpreadMass mass{.value = card.line_of(0, "the mass").number(0), .owner = card.required("ELSET")};
+  if (units == "MASS PER LENGTH" || units == "MASS PER AREA") {
+    mass.per = units == "MASS PER AREA" ? MassPer::area : MassPer::length;
+  } else if (units == "TOTAL MASS") {
+    mass.total = true;
+    mass.as_density = shares != "VOLUME PROPORTIONAL";
+    if (mass.as_density && !shares.empty() && shares != "MASS PROPORTIONAL")
+      card.fail(fmt::format("DISTRIBUTION={} is not known", shares), "MASS PROPORTIONAL and VOLUME PROPORTIONAL are read");
+  } else if (units != "MASS PER VOLUME") {
+    card.fail(fmt::format("UNITS={} is not known", units),
+              "TOTAL MASS, MASS PER VOLUME, MASS PER AREA and MASS PER LENGTH are read");
+  }
+  spread_mass(parts, card, parts.set(parts.element_sets, card, card.get("ELSET")).members, mass);
 }
 
 void attach_inp_boundary(InpParts& parts, const InpCard& card) {

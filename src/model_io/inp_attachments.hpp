@@ -10,6 +10,8 @@ void attach_inp_spring(InpParts& parts, const InpCard& card);
 /// along the axes of ORIENTATION or the global ones.
 void attach_inp_joint(InpParts& parts, const InpCard& card);
 void attach_inp_mass(InpParts& parts, const InpCard& card);
+/// *NONSTRUCTURAL MASS: in total, or per volume, area or length of the elements of a set.
+void spread_inp_mass(InpParts& parts, const InpCard& card);
 void attach_inp_boundary(InpParts& parts, const InpCard& card);
 /// Axes of the *ORIENTATION that a card names, or the global ones. @throws InputError for an unknown name
 [[nodiscard]] InpOrientation inp_axes_of(const InpParts& parts, const InpCard& card);

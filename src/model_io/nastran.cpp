@@ -28,9 +28,9 @@ using Reader = void (*)(Parts&, const Card&);
 /// Cards in the order in which they must be understood: what others refer to, elements, what sits on them, rigid links.
 const std::vector<std::map<std::string, Reader>>& reading_passes() {
   static const std::vector<std::map<std::string, Reader>> passes = {
-      by_word<Reader>(
-          {{index_card, {"GRID",  "GRDSET", "CORD1R", "CORD1C", "CORD1S", "CORD2R", "CORD2C", "CORD2S", "MAT1",  "PBAR",
-                         "PBARL", "PBEAM",  "PBEAML", "PROD",   "PSHELL", "PSOLID", "PELAS",  "PBUSH",  "PMASS", "SPOINT"}}}),
+      by_word<Reader>({{index_card, {"GRID",  "GRDSET", "CORD1R", "CORD1C", "CORD1S", "CORD2R", "CORD2C", "CORD2S",
+                                     "MAT1",  "PBAR",   "PBARL",  "PBEAM",  "PBEAML", "PROD",   "PSHELL", "PSOLID",
+                                     "PELAS", "PBUSH",  "PMASS",  "SPOINT"}}}),
       by_word<Reader>({{read_member, {"CBAR", "CBEAM"}},
                        {read_rod, {"CROD", "CONROD"}},
                        {read_shell, {"CQUAD4", "CTRIA3", "CQUAD8", "CTRIA6"}},
@@ -82,7 +82,6 @@ const std::map<std::string, std::string>& refused_cards() {
        {"a rigid joint is RBE2 or RBAR", {"RBE1", "RROD", "RTRPLT", "RSPLINE", "CWELD", "CFAST"}},
        {"write a straight CBAR or CBEAM with PBAR or PBEAM", {"CBEND", "PBEND", "PBCOMP", "PBMSECT", "PBRSECT"}},
        {"write a CROD with the area of the tube", {"CTUBE", "PTUBE"}},
-       {"give every element its own fields", {"BAROR", "BEAMOR"}},
        {"put a GRID in place of the scalar point", {"CELAS3", "CELAS4", "CMASS3", "CMASS4"}},
        {"give the whole model as matrices (docs/my_model.md), or the element by DMIG", {"GENEL"}},
        {"give DMIG, which is chosen by K2GG and M2GG", {"DMIJ", "DMIJI", "DMIK", "DMI"}},
@@ -97,7 +96,8 @@ bool scales_matrices(const std::string& parameter) {
 
 /// Read together at the end, by the sets that the case control chooses; and parameters.
 bool is_read_apart(const std::string& name) {
-  return contains(std::array{"SPC", "SPC1", "SPCADD", "MPC", "MPCADD", "PARAM", "DMIG"}, name);
+  return contains(
+      std::array{"SPC", "SPC1", "SPCADD", "MPC", "MPCADD", "PARAM", "DMIG", "NSM", "NSM1", "NSML", "NSML1", "NSMADD"}, name);
 }
 
 void refuse_or_note(Parts& parts) {
@@ -196,6 +196,7 @@ ImportedModel read_nastran(const std::filesystem::path& path) {
   nastran::read_multipoint(parts);
   nastran::read_direct_matrices(parts);
   nastran::finish_masses(parts);
+  nastran::read_spread_masses(parts);
   nastran::read_supports(parts);
   nastran::finish_rods(parts);
   if (parts.model.elements.empty() && parts.model.springs.empty() && parts.model.matrix_elements.empty())

@@ -4,7 +4,9 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <limits>
 #include <map>
 #include <set>
 
@@ -13,6 +15,7 @@
 #include "model_io/names.hpp"
 #include "model_io/nastran_elements.hpp"
 #include "model_io/nastran_properties.hpp"
+#include "model_io/spread_mass.hpp"
 
 namespace twindeck::model_io::nastran {
 namespace {
@@ -270,6 +273,68 @@ void add_direct(Parts& parts, const CaseControl::Matrices& chosen, bool mass, st
   }
 }
 
+bool is_spread_mass(const std::string& name) { return name == "NSM" || name == "NSM1" || name == "NSML" || name == "NSML1"; }
+
+/// The sets in force. NSMADD joins some.
+std::set<long> spread_mass_sets(const Parts& parts) {
+  std::set<long> all, chosen;
+  for (const Card& card : parts.deck.cards())
+    if (is_spread_mass(card.name)) all.insert(card.integer(0));
+  const CaseControl& control = parts.deck.case_control();
+  if (control.nsm) chosen.insert(*control.nsm);
+  if (!control.present && all.size() == 1) chosen = all;
+  for (const Card& card : parts.deck.cards())
+    if (card.name == "NSMADD" && control.nsm && card.integer(0) == *control.nsm)
+      for (std::size_t i = 1; i < card.size(); ++i) chosen.insert(card.integer(i));
+  return chosen;
+}
+
+/// Elements of the deck by their own numbers (ELEMENT) or those of their properties (PSHELL, PBAR …), in fields from `first`
+/// on.
+std::vector<long> named_elements(const Parts& parts, const Card& card, std::size_t first, std::size_t end) {
+  const std::string kind = card.word(1);
+  std::vector<std::array<long, 3>> ranges;  // first, last, step
+  for (std::size_t i = first; i < end; ++i) {
+    if (card.blank(i)) continue;
+    if (card.word(i) == "ALL") {
+      ranges.push_back({0, std::numeric_limits<long>::max(), 1});
+    } else if (card.word(i) == "THRU" && !ranges.empty()) {
+      ranges.back()[1] = card.integer(++i);
+      if (card.word(i + 1) == "BY") ranges.back()[2] = std::max(1L, card.integer(i += 2));
+    } else {
+      ranges.push_back({card.integer(i), card.integer(i), 1});
+    }
+  }
+  std::vector<long> found;
+  for (const fe::Element& e : parts.model.elements) {
+    const std::size_t bar = e.group.rfind('_');  // "pbarl_7"
+    const std::string of = upper_case(e.group.substr(0, bar));
+    const bool is_kind = kind == "ELEMENT" || of == kind || of == kind + "L" || of + "L" == kind;
+    const long number = kind == "ELEMENT" ? e.id : std::stol(e.group.substr(bar + 1));
+    if (is_kind && parts.element_ids.contains(e.id) &&  // no further piece of an element of the deck
+        std::ranges::any_of(ranges,
+                            [&](const auto& r) { return number >= r[0] && number <= r[1] && (number - r[0]) % r[2] == 0; }))
+      found.push_back(e.id);
+  }
+  return found;
+}
+
+void spread_card(Parts& parts, const Card& card) {
+  const bool list = card.name.ends_with('1');
+  const auto spread = [&](double value, std::size_t first, std::size_t end) {
+    const std::vector<long> ids = named_elements(parts, card, first, end);
+    const auto first_of = std::ranges::find_if(parts.model.elements, [&](const auto& e) { return contains(ids, e.id); });
+    const bool shell = first_of != parts.model.elements.end() && first_of->type == fe::ElementType::shell;
+    spread_mass(parts, card, ids,
+                {.value = value,
+                 .per = shell ? MassPer::area : MassPer::length,
+                 .total = card.name.starts_with("NSML"),
+                 .owner = "nsm_" + card.text(0)});
+  };
+  if (list) return spread(card.number(2), 3, card.size());
+  for (std::size_t i = 2; i < card.size(); i += 2) spread(card.number(i + 1), i, i + 1);
+}
+
 }  // namespace
 
 void read_scalar_spring(Parts& parts, const Card& card) {
@@ -363,6 +428,24 @@ void read_direct_matrices(Parts& parts) {
                 "put \"K2GG = NAME\" (or M2GG) and \"BEGIN BULK\" above the cards");
     parts.note_once(fmt::format("DMIG cards of {} are left out: neither K2GG nor M2GG chooses them", card.text(0)));
   }
+}
+
+void read_spread_masses(Parts& parts) {
+  const std::set<long> chosen = spread_mass_sets(parts);
+  std::set<long> left_out;
+  for (const Card& card : parts.deck.cards()) {
+    if (!is_spread_mass(card.name)) continue;
+    if (chosen.contains(card.integer(0)))
+      spread_card(parts, card);
+    else
+      left_out.insert(card.integer(0));
+  }
+  if (left_out.empty()) return;
+  if (!parts.deck.case_control().present)
+    parts.deck.whole("NSM").fail("holds several sets of nonstructural mass, and no case control chooses one",
+                                 "put \"NSM = 1\" and \"BEGIN BULK\" above the cards");
+  parts.notes.push_back(fmt::format("nonstructural mass of set {} is left out: NSM in the case control does not choose it",
+                                    fmt::join(left_out, ", ")));
 }
 
 }  // namespace twindeck::model_io::nastran

@@ -32,7 +32,7 @@ struct CaseControl {
   };
   bool present = false;  ///< the file has a case control section
   std::string title;
-  std::optional<long> spc, mpc;
+  std::optional<long> spc, mpc, nsm;
   std::vector<Subcase> subcases;
   Matrices k2gg, m2gg;  ///< DMIG matrices that are added to stiffness and mass; an empty text: none
 };

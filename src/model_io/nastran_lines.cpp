@@ -166,9 +166,9 @@ struct DeckReader {
            "write a linear static subcase and STATSUB");
     if (key.starts_with("SUBCASE")) return open_subcase(line, trimmed(key.substr(7) + value));
     choose_loads(line, key, value);
-    if (key != "SPC" && key != "MPC") return;
+    if (key != "SPC" && key != "MPC" && key != "NSM") return;
     if (!is_whole_number(value)) fail(line, key, fmt::format("chooses '{}', expected a number", value), "write SPC = 1");
-    std::optional<long>& chosen = key == "SPC" ? deck.case_.spc : deck.case_.mpc;
+    std::optional<long>& chosen = key == "SPC" ? deck.case_.spc : key == "MPC" ? deck.case_.mpc : deck.case_.nsm;
     const long id = std::stol(value);
     if (chosen && *chosen != id)
       fail(line, key, fmt::format("chooses set {}, another subcase chooses {}", id, *chosen), "leave one subcase in the deck");
