@@ -30,7 +30,7 @@ const std::vector<std::map<std::string, Reader>>& reading_passes() {
   static const std::vector<std::map<std::string, Reader>> passes = {
       by_word<Reader>({{index_card, {"GRID",  "GRDSET", "CORD1R", "CORD1C", "CORD1S", "CORD2R", "CORD2C", "CORD2S",
                                      "MAT1",  "PBAR",   "PBARL",  "PBEAM",  "PBEAML", "PROD",   "PSHELL", "PSOLID",
-                                     "PELAS", "PBUSH",  "PMASS",  "SPOINT"}}}),
+                                     "PELAS", "PBUSH",  "PMASS",  "SPOINT", "BAROR",  "BEAMOR"}}}),
       by_word<Reader>({{read_member, {"CBAR", "CBEAM"}},
                        {read_rod, {"CROD", "CONROD"}},
                        {read_shell, {"CQUAD4", "CTRIA3", "CQUAD8", "CTRIA6"}},

@@ -68,6 +68,18 @@ void add_edge_grids(Parts& parts, const Card& card, std::size_t first, std::size
   for (std::size_t i = first; i < first + count; ++i) e.nodes.push_back(parts.node(card, card.integer(i)));
 }
 
+/// A member with what BAROR or BEAMOR says in the place of blank fields: property, vector, OFFT.
+Card with_defaults(const Parts& parts, Card card) {
+  const auto found = parts.member_defaults.find(card.name);
+  if (found == parts.member_defaults.end()) return card;
+  constexpr std::size_t property = 1, vector = 4, frames = 7;
+  card.fields.resize(std::max(card.fields.size(), frames + 1));
+  const bool own_vector = !card.blank(vector) || !card.blank(vector + 1) || !card.blank(vector + 2);
+  for (const std::size_t i : {property, vector, vector + 1, vector + 2, frames})
+    if (card.blank(i) && (i < vector || i == frames || !own_vector)) card.fields[i] = found->second->text(i);
+  return card;
+}
+
 }  // namespace
 
 Eigen::Vector3d plane_vector(Parts& parts, const Card& card, char frame) {
@@ -78,7 +90,8 @@ Eigen::Vector3d plane_vector(Parts& parts, const Card& card, char frame) {
   return frame == 'B' ? v : Eigen::Vector3d(parts.displacement_axes(card, a).transpose() * v);
 }
 
-void read_member(Parts& parts, const Card& card) {
+void read_member(Parts& parts, const Card& given) {
+  const Card card = with_defaults(parts, given);
   fe::Element e = start_element(parts, card, fe::ElementType::beam, 2, 2);
   const long property = card.integer_or(1, e.id);
   const MemberProperty p = card.name == "CBAR" ? bar_property(parts, card, property) : beam_property(parts, card, property);

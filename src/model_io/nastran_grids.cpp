@@ -79,7 +79,10 @@ void index_card(Parts& parts, const Card& card) {
   if (card.name == "GRID") return index_in(parts.grids, card);
   if (card.name.starts_with("CORD2")) return index_in(parts.system_cards, card);
   if (card.name == "MAT1") return index_in(parts.materials, card);
-  if (card.name == "GRDSET") {
+  if (card.name == "BAROR" || card.name == "BEAMOR") {
+    if (!parts.member_defaults.emplace(card.name == "BAROR" ? "CBAR" : "CBEAM", &card).second)
+      card.fail("stands twice in the deck", "keep one of the two cards");
+  } else if (card.name == "GRDSET") {
     if (parts.grid_defaults != nullptr) card.fail("stands twice in the deck", "keep one of the two cards");
     parts.grid_defaults = &card;
   } else if (card.name.starts_with("CORD1")) {

@@ -37,6 +37,7 @@ struct Parts : DeckModel {
   std::map<long, double> spring_constants, scalar_masses;  ///< PELAS, PMASS
   std::set<long> scalar_points;                            ///< SPOINT
   const Card* grid_defaults = nullptr;                     ///< GRDSET
+  std::map<std::string, const Card*> member_defaults;      ///< BAROR, BEAMOR by the card that they are for
   double wtmass = 1.0;                                     ///< PARAM WTMASS
 
   std::map<long, Eigen::Vector3d> places;  ///< of the grids asked for so far

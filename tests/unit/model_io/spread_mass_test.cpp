@@ -56,11 +56,11 @@ std::string nastran_beam(const std::string& control, const std::string& cards) {
   std::string deck =
       control + "PARAM,COUPMASS,1\nMAT1,3,2.1+11,,.3,8000.\nSPC1,5,123456,1\nPBAR,7,3,.01,8.3333333-6,8.3333333-6,1.-5\n";
   for (int i = 1; i <= 21; ++i) deck += fmt::format("GRID,{},,{:.1f},0.,0.\n", i, 0.5 * (i - 1));
-  for (int i = 1; i <= 20; ++i) deck += fmt::format("CBAR,{},7,{},{},0.,0.,1.\n", i, i, i + 1);
-  return deck + cards;
+  for (int i = 1; i <= 20; ++i) deck += fmt::format("CBAR,{},,{},{}\n", i, i, i + 1);
+  return deck + "BAROR,,7,,,0.,0.,1.\n" + cards;
 }
 
-TEST(SpreadMass, NastranGivesItByCardsOfItsOwn) {
+TEST(SpreadMass, NastranGivesItByCardsOfItsOwnAndBarsByDefaults) {
   const TestFolder folder;
   const std::string chosen = "SOL 103\nCEND\nSPC = 5\nNSM = 9\nBEGIN BULK\n";
   const double heavy_Hz = euler_Hz(320.0);
