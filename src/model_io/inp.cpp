@@ -64,7 +64,7 @@ bool is_noted(const std::string& card) {
 
 void refuse_unknown(const InpPlan& plan) {
   std::vector<std::string> known = silent_cards();
-  known.insert(known.end(), {"BOUNDARY", "TIE", "NONSTRUCTURAL MASS", "CLOAD", "DLOAD", "DSLOAD", "TEMPERATURE",
+  known.insert(known.end(), {"BOUNDARY", "TIE", "RELEASE", "NONSTRUCTURAL MASS", "CLOAD", "DLOAD", "DSLOAD", "TEMPERATURE",
                              "INITIAL CONDITIONS"});
   for (const auto& pass : passes())
     for (const auto& [keyword, reader] : pass) known.push_back(keyword);
@@ -109,11 +109,12 @@ void attach_supports(InpParts& parts, const InpPlan& plan) {
     parts.hold_along(support.at, support.name, parts.node_position.at(id), parts.node_axes.at(id), support.fixed);
 }
 
-/// Ties, when sections, links and equations are known; masses on elements.
+/// Ties, when sections, links and equations are known; masses and released ends of elements.
 void attach_to_elements(InpParts& parts, const InpPlan& plan) {
   for (const InpReading& reading : plan.readings) {
     parts.scope = reading.scope;
     if (reading.card->keyword == "TIE") attach_inp_tie(parts, *reading.card);
+    if (reading.card->keyword == "RELEASE") release_inp_ends(parts, *reading.card);
     if (reading.card->keyword == "NONSTRUCTURAL MASS") spread_inp_mass(parts, *reading.card);
   }
 }

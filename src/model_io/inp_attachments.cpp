@@ -174,6 +174,30 @@ void spread_inp_mass(InpParts& parts, const InpCard& card) {
   spread_mass(parts, card, parts.set(parts.element_sets, card, card.get("ELSET")).members, mass);
 }
 
+void release_inp_ends(InpParts& parts, const InpCard& card) {
+  static const std::map<std::string, unsigned> codes = {{"M1", 0b010000},    {"M2", 0b100000},   {"T", 0b001000},
+                                                        {"M1-M2", 0b110000}, {"M1-T", 0b011000}, {"M2-T", 0b101000},
+                                                        {"ALLM", 0b111000}};
+  card.allow({});
+  std::map<long, std::size_t> position;
+  for (std::size_t i = 0; i < parts.model.elements.size(); ++i) position.emplace(parts.model.elements[i].id, i);
+  for (const InpLine& line : card.data) {
+    const auto code = codes.find(line.word(2));
+    const bool first = line.word(1) == "S1";
+    if (code == codes.end() || (!first && line.word(1) != "S2"))
+      line.fail(fmt::format("releases '{}' at end '{}', which is not known", line.text(2), line.text(1)),
+                "write element or set, S1 or S2, then M1, M2, T, M1-M2, M1-T, M2-T or ALLM");
+    for (const long id : parts.elements_at(line)) {
+      const auto found = position.find(id);
+      if (found == position.end() || parts.model.elements[found->second].type != fe::ElementType::beam)
+        line.fail(fmt::format("element {} is no beam", id), "release the ends of beams");
+      const std::size_t last = parts.pieces.contains(id) ? parts.pieces.at(id) - 1 : 0;
+      fe::Element& e = parts.model.elements[found->second + (first ? 0 : last)];
+      e.releases = static_cast<std::uint16_t>(e.releases | (code->second << (first ? 0U : 6U)));
+    }
+  }
+}
+
 void attach_inp_boundary(InpParts& parts, const InpCard& card) {
   card.allow({"OP", "TYPE", "AMPLITUDE"});
   if (upper_case(card.get("TYPE", "DISPLACEMENT")) != "DISPLACEMENT")

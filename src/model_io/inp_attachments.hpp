@@ -12,6 +12,8 @@ void attach_inp_joint(InpParts& parts, const InpCard& card);
 void attach_inp_mass(InpParts& parts, const InpCard& card);
 /// *NONSTRUCTURAL MASS: in total, or per volume, area or length of the elements of a set.
 void spread_inp_mass(InpParts& parts, const InpCard& card);
+/// *RELEASE: moments that an end of a beam does not carry (M1 and M2 about n1 and n2, T about the axis).
+void release_inp_ends(InpParts& parts, const InpCard& card);
 void attach_inp_boundary(InpParts& parts, const InpCard& card);
 /// Axes of the *ORIENTATION that a card names, or the global ones. @throws InputError for an unknown name
 [[nodiscard]] InpOrientation inp_axes_of(const InpParts& parts, const InpCard& card);

@@ -52,6 +52,14 @@ TEST(SpreadMass, AbaqusGivesItInFourWays) {
   EXPECT_NE(refused("TOTAL MASS\n-5.").find("the mass is -5"), std::string::npos);
 }
 
+TEST(SpreadMass, AbaqusReleasesEndsOfBeams) {
+  // Clamped at both nodes, and the end of the last beam turns freely: clamped and pinned.
+  const ImportedModel read = abaqus("", "*RELEASE\n20, S2, M1-M2\n*BOUNDARY\n1, 1, 6\n21, 1, 6\n");
+  const double ratio = std::pow(3.926602312 / 1.875104068711961, 2);
+  EXPECT_NEAR(frequencies(read.model, 1).at(0) / (ratio * euler_Hz(density_kg_m3 * side_m * side_m)), 1.0, 1e-3);
+  EXPECT_NE(message_of([] { (void)abaqus("*RELEASE\n20, S3, M1\n"); }).find("'M1' at end 'S3'"), std::string::npos);
+}
+
 std::string nastran_beam(const std::string& control, const std::string& cards) {
   std::string deck =
       control + "PARAM,COUPMASS,1\nMAT1,3,2.1+11,,.3,8000.\nSPC1,5,123456,1\nPBAR,7,3,.01,8.3333333-6,8.3333333-6,1.-5\n";
