@@ -77,6 +77,7 @@ void read_inp_nodes(InpParts& parts, const InpCard& card) {
   for (const InpLine& line : card.data) {
     const long written = line.integer(0), id = written + scope.node_offset;
     const Eigen::Vector3d x = line.vector(1);
+    if (!line.vector(4).isZero(0.0)) parts.with_normal.insert(id);
     if (!parts.scope_of_node.emplace(id, parts.scope).second)
       line.fail(fmt::format("node {} is defined twice", written), "keep one of the two lines");
     parts.add_node(id,
@@ -104,6 +105,10 @@ void read_inp_elements(InpParts& parts, const InpCard& card) {
     for (std::size_t i = open ? 0 : 1; i < line.fields.size(); ++i) element.nodes.push_back(parts.node_id(line, i));
     open = static_cast<int>(element.nodes.size()) < wanted;
     if (open) continue;
+    if (inp_kind(type) == InpKind::beam && static_cast<int>(element.nodes.size()) == wanted + 1) {
+      element.towards = element.nodes.back();
+      element.nodes.pop_back();
+    }
     if (static_cast<int>(element.nodes.size()) > wanted) refuse_count(line, element, wanted, "check TYPE and the data line");
     if (!parts.elements.emplace(element.id, element).second)
       element.at->fail(fmt::format("element {} is defined twice", element.id), "keep one of the two");

@@ -24,6 +24,7 @@ struct InpElement {
   const InpCard* card = nullptr;
   const InpLine* at = nullptr;  ///< its first data line
   int used = 0;                 ///< how many section, spring, dashpot or mass cards speak of it
+  long towards = -1;            ///< of a beam: additional node, to which n1 points from the first one; -1 for none
 };
 
 struct InpSet {
@@ -56,6 +57,7 @@ struct InpParts : DeckModel {
   std::vector<InpScope> scopes{InpScope{}};
   int scope = 0;                      ///< of the card that is being read
   std::map<long, int> scope_of_node;  ///< where *NODE defines it
+  std::set<long> with_normal;         ///< nodes whose line gives a normal behind the coordinates
   std::map<long, InpElement> elements;
   std::map<long, double> point_mass_kg;  ///< of elements of type MASS
   std::map<std::string, InpSet> node_sets,

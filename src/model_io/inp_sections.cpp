@@ -79,10 +79,20 @@ void add_beams(InpParts& parts, const InpCard& card, int material, int section, 
       parts.note_once(
           "B31OS and B32OS are read as B31 and B32: the warping of their open sections, which stiffens them in "
           "torsion, is left out");
+    for (const long id : element->nodes)
+      if (parts.with_normal.contains(id))
+        element->at->fail(fmt::format("element {} is a beam, and node {} has a normal behind its coordinates, which turns the "
+                                      "section and is not read",
+                                      element->id, parts.node_name(id)),
+                          "leave the normal out, and give n1 in the second data line of the section");
+    Eigen::Vector3d own_n1 = n1;
+    if (element->towards >= 0)
+      own_n1 =
+          parts.place(parts.node(*element->at, element->towards)) - parts.place(parts.node(*element->at, element->nodes[0]));
     parts.add_beam(to_element(parts, card, *element, fe::ElementType::beam, material, section),
                    [&](fe::Element& piece, const Eigen::Vector3d& axis) {
                      piece.orientation =
-                         DeckModel::local_z(card, fmt::format("element {}", element->id), axis, n1,
+                         DeckModel::local_z(card, fmt::format("element {}", element->id), axis, own_n1,
                                             "give n1 across the beam in the second data line (default 0, 0, -1)");
                      DeckModel::put_beside(piece, axis, centroid);
                    });

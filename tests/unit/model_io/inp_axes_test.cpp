@@ -61,6 +61,21 @@ TEST(InpAxes, ABarOnTurnedSupports) {
   EXPECT_TRUE(read_text(bar(pi / 2.0, "*TRANSFORM, NSET=ENDS\n0., 1., 0., -1., 0., 0.\n", "", push)).constraints.empty());
 }
 
+TEST(InpAxes, AnAdditionalNodeOfABeamTurnsItsSection) {
+  // n1 points from the first node to the additional one, whatever the section says; a normal at a node would turn it too.
+  const auto deck = [](const std::string& third, const std::string& normal, const std::string& n1) {
+    return read_text("*NODE\n1, 0., 0., 0." + normal + "\n2, 4., 0., 0.\n3, 0., 3., 0.\n*ELEMENT, TYPE=B31, ELSET=B\n1, 1, 2" +
+                     third +
+                     "\n*MATERIAL, NAME=S\n*ELASTIC\n2.1E11, 0.3\n*DENSITY\n7850.\n*BEAM SECTION, ELSET=B, MATERIAL=S, " +
+                     "SECTION=RECT\n0.1, 0.2\n" + n1 + "*BOUNDARY\n1, 1, 6\n");
+  };
+  const Eigen::Vector3d by_section = deck("", "", "0., 1., 0.\n").elements.at(0).orientation;
+  EXPECT_TRUE(deck(", 3", "", "0., 0., 1.\n").elements.at(0).orientation.isApprox(by_section, 1e-12));
+  EXPECT_NE(
+      message_of([&] { (void)deck("", ", 0., 0., 1.", "0., 1., 0.\n"); }).find("node 1 has a normal behind its coordinates"),
+      std::string::npos);
+}
+
 TEST(InpAxes, SpringsAndEquationsAlongTurnedAxes) {
   // 2 kg on 800 N/m along (0.6, 0.8) and held across; a second one of 3 kg moves half as far along its own x'.
   const std::string deck =
