@@ -6,122 +6,20 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <deque>
 #include <map>
 #include <numbers>
 #include <set>
+#include <utility>
 
 #include "core/lists.hpp"
-#include "io/text_lines.hpp"
-#include "model_io/deck_card.hpp"
 #include "model_io/deck_model.hpp"
 #include "model_io/deck_units.hpp"
 #include "model_io/profiles.hpp"
 #include "model_io/sap2000_constraints.hpp"
+#include "model_io/sap2000_tables.hpp"
 
 namespace twindeck::model_io {
 namespace {
-
-/// One row: `Joint=1   XorR=0   Y=0`. Keys are compared in upper case, values stand as written, without their quotes.
-struct SapRow : DeckFields {
-  std::vector<std::string> keys;
-
-  [[nodiscard]] bool has(const std::string& key) const { return position(key) < keys.size(); }
-  /// Value of a key, or `fallback`.
-  [[nodiscard]] std::string get(const std::string& key, const std::string& fallback = "") const {
-    return has(key) ? fields[position(key)] : fallback;
-  }
-  /// Value of a key that must be there.
-  [[nodiscard]] std::string required(const std::string& key) const {
-    if (blank(position(key))) fail("has no " + key, "complete the row");
-    return fields[position(key)];
-  }
-  [[nodiscard]] double number_of(const std::string& key) const {
-    (void)required(key);
-    return number(position(key));
-  }
-  [[nodiscard]] double number_of(const std::string& key, double fallback) const { return number_or(position(key), fallback); }
-  [[nodiscard]] bool yes(const std::string& key) const { return word(position(key)) == "YES"; }
-  /// Whether an assignment says what holds without it: factors of 1 (keys ...Mod, f11 ... v23), offsets of 0, the centroid.
-  [[nodiscard]] bool is_neutral() const;
-
- private:
-  [[nodiscard]] std::size_t position(const std::string& key) const {
-    return static_cast<std::size_t>(std::ranges::find(keys, upper_case(key)) - keys.begin());
-  }
-};
-
-/// The rules of the format: `TABLE:  "NAME"` opens a table, each line is a row, a line that ends with ` _` goes on in the next.
-class SapTables {
- public:
-  /// @throws InputError  if it cannot be opened, or a row stands above the first table
-  explicit SapTables(const std::filesystem::path& file);
-
-  /// Rows of a table; none for one that the file does not have.
-  [[nodiscard]] const std::vector<SapRow>& rows(const std::string& table) const {
-    static const std::vector<SapRow> none;
-    const auto found = tables_.find(table);
-    return found == tables_.end() ? none : found->second;
-  }
-  [[nodiscard]] const std::map<std::string, std::vector<SapRow>>& all() const { return tables_; }
-  [[nodiscard]] DeckPlace whole(const std::string& table) const { return {&files_.front(), 0, table}; }
-
- private:
-  std::deque<std::filesystem::path> files_;  ///< the file; rows point to it
-  std::map<std::string, std::vector<SapRow>> tables_;
-};
-
-/// Adds the cells `Key=value` and `Key="a value"` of a line to a row.
-void add_cells(const std::string& line, SapRow& row) {
-  for (std::size_t at = 0; at < line.size();) {
-    const std::size_t start = line.find_first_not_of(" \t", at), equals = line.find('=', start);
-    if (start == std::string::npos || equals == std::string::npos) return;
-    const bool quoted = equals + 1 < line.size() && line[equals + 1] == '"';
-    const std::size_t first = equals + (quoted ? 2 : 1);
-    const std::size_t end = std::min(line.find_first_of(quoted ? "\"" : " \t", first), line.size());
-    row.keys.push_back(upper_case(trimmed(line.substr(start, equals - start))));
-    row.fields.push_back(trimmed(line.substr(first, end - first)));
-    at = end + (quoted ? 1 : 0);
-  }
-}
-
-bool SapRow::is_neutral() const {
-  const bool factors = label.ends_with(" MODIFIERS"),
-             offsets = label.starts_with("FRAME INSERTION") || label.starts_with("FRAME OFFSET");
-  if (!factors && !offsets) return false;
-  for (std::size_t i = 1; i < fields.size(); ++i) {
-    const bool is_number = fields[i].find_first_of("+-.0123456789") == 0,
-               centroid = fields[i].starts_with("10 ") || fields[i].starts_with("11 ");
-    if (keys[i] == "CARDINALPT" ? !centroid : is_number && number(i) != (factors ? 1.0 : 0.0)) return false;
-  }
-  return true;
-}
-
-SapTables::SapTables(const std::filesystem::path& file) {
-  files_.push_back(file);
-  io::TextLines stream(file, io::longest_text);
-  if (!stream.opened()) whole("").fail("cannot be opened", "give the path of an .s2k file");
-  std::vector<SapRow>* open = nullptr;
-  std::string text, label;
-  bool goes_on = false;
-  for (long number = 1; stream.next(text); ++number) {
-    std::string line = trimmed(text);
-    if (line.starts_with("TABLE:")) {
-      const std::size_t quote = line.find('"'), end = line.find('"', quote + 1);
-      if (end == std::string::npos) DeckPlace{&files_.front(), number, "TABLE"}.fail("has no name", "write TABLE:  \"NAME\"");
-      label = upper_case(line.substr(quote + 1, end - quote - 1));
-      open = &tables_[label];
-      continue;
-    }
-    if (line.empty() || line.starts_with("END TABLE") || line.starts_with("File ")) continue;
-    if (open == nullptr)
-      DeckPlace{&files_.front(), number, ""}.fail("a row stands before the first table", "begin with TABLE:");
-    if (!goes_on) static_cast<DeckPlace&>(open->emplace_back()) = {&files_.front(), number, label};
-    goes_on = line.ends_with(" _");
-    if (goes_on) line.pop_back();
-    add_cells(line, open->back());
-  }
-}
 
 const std::array<std::string, 6> joint_directions = {"U1", "U2", "U3", "R1", "R2", "R3"};
 const std::array<std::string, 6> global_directions = {"UX", "UY", "UZ", "RX", "RY", "RZ"};
@@ -131,7 +29,8 @@ const std::vector<std::string>& sap_tables_read() {
   static const std::vector<std::string> names = split_at(
       "JOINT COORDINATES|JOINT RESTRAINT ASSIGNMENTS|JOINT SPRING ASSIGNMENTS 1 - UNCOUPLED|JOINT ADDED MASS "
       "ASSIGNMENTS|CONNECTIVITY - FRAME|CONNECTIVITY - AREA|FRAME SECTION ASSIGNMENTS|FRAME SECTION PROPERTIES 01 - "
-      "GENERAL|FRAME LOCAL AXES ASSIGNMENTS 1 - TYPICAL|FRAME RELEASE ASSIGNMENTS 1 - GENERAL|FRAME PROPERTY MODIFIERS|AREA "
+      "GENERAL|FRAME LOCAL AXES ASSIGNMENTS 1 - TYPICAL|FRAME RELEASE ASSIGNMENTS 1 - GENERAL|FRAME RELEASE ASSIGNMENTS 2 - "
+      "PARTIAL FIXITY|FRAME PROPERTY MODIFIERS|AREA "
       "SECTION ASSIGNMENTS|AREA SECTION PROPERTIES|MATERIAL PROPERTIES 02 - BASIC MECHANICAL PROPERTIES|MASS SOURCE|MASSES 1 - "
       "MASS SOURCE|CONSTRAINT DEFINITIONS - BODY|CONSTRAINT DEFINITIONS - DIAPHRAGM|JOINT CONSTRAINT ASSIGNMENTS",
       '|');
@@ -339,6 +238,29 @@ class SapReader {
     return static_cast<std::uint16_t>(bits);
   }
 
+  /// Whether SAP2000 divides a frame at the joints that lie on it, as it does unless it is told otherwise.
+  [[nodiscard]] bool is_divided(const std::string& frame) const {
+    return std::ranges::none_of(tables_.rows("FRAME AUTO MESH ASSIGNMENTS"), [&](const SapRow& row) {
+      return row.get("Frame") == frame &&
+             (upper_case(row.get("AutoMesh", "Yes")) == "NO" || upper_case(row.get("AtJoints", "Yes")) == "NO");
+    });
+  }
+
+  /// Joints between the ends of a line, in their order along it.
+  [[nodiscard]] std::vector<int> joints_between(int from, int to) const {
+    constexpr double beside = 1e-4;  // [-] of the length: 1 mm of 10 m, SAP2000's own tolerance
+    const Eigen::Vector3d a = deck_.place(from), along = deck_.place(to) - a;
+    std::vector<std::pair<double, int>> found;
+    for (const auto& [name, node] : joints_) {
+      const Eigen::Vector3d x = deck_.place(node) - a;
+      const double share = x.dot(along) / along.squaredNorm();
+      if (share > beside && share < 1.0 - beside && (x - share * along).norm() <= beside * along.norm())
+        found.emplace_back(share, node);
+    }
+    std::ranges::sort(found);
+    return each_of(found, [](const auto& joint) { return joint.second; });
+  }
+
   void read_frames() {
     constexpr std::uint16_t bending = 0b110000'110000;  // M2 and M3 of both ends: a bar
     for (const SapRow& row : tables_.rows("CONNECTIVITY - FRAME")) {
@@ -359,7 +281,14 @@ class SapReader {
         deck_.add_element(e);
         continue;
       }
+      const std::vector<int> between = is_divided(frame) ? joints_between(e.nodes[0], e.nodes[1]) : std::vector<int>{};
+      e.nodes.insert(e.nodes.begin() + 1, between.begin(), between.end());
+      const std::uint16_t at_ends = std::exchange(e.releases, 0);
+      const std::size_t first = deck_.model.elements.size();
       deck_.add_beam(e, [&](fe::Element& piece, const Eigen::Vector3d& axis) { turn_frame(row, frame, piece, axis); });
+      deck_.model.elements[first].releases = at_ends & 0b111111U;
+      deck_.model.elements.back().releases =
+          static_cast<std::uint16_t>(deck_.model.elements.back().releases | (at_ends & 0b111111'000000U));
     }
   }
 
@@ -399,6 +328,12 @@ class SapReader {
       for (int i = 1; i <= 4 && row.has(fmt::format("Joint{}", i)); ++i)
         e.nodes.push_back(joint(row, fmt::format("Joint{}", i)));
       if (e.nodes.size() < 3 || row.has("Joint5")) row.fail("is no area of three or four joints", "divide it");
+      const auto& edges = tables_.rows("AREA EDGE CONSTRAINT ASSIGNMENTS");
+      if (std::ranges::any_of(edges,
+                              [&](const SapRow& of) { return of.get("Area") == row.get("Area") && of.yes("EdgeConst"); }))
+        for (std::size_t i = 0; i < e.nodes.size(); ++i)
+          if (!joints_between(e.nodes[i], e.nodes[(i + 1) % e.nodes.size()]).empty())
+            row.fail("has an edge constraint and a joint on its edge, which is not read", "divide the area at that joint");
       deck_.add_element(e);
     }
   }

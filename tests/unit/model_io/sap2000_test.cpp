@@ -126,6 +126,20 @@ TEST(Sap2000, AReleaseIsAHinge) {
   expect_known("propped_beam", text, {euler_Hz(3.92660231, i22, 4.0), euler_Hz(3.92660231, i33, 4.0)}, beams);
 }
 
+TEST(Sap2000, AFrameIsDividedAtTheJointsThatLieOnIt) {
+  // One frame from end to end with 39 joints on it is forty frames; a release is at its own end.
+  std::string text =
+      metres + steel + section + line_of_frames(40, 0.1, 0.0) + restraints + restraint(1, "111111") + restraint(41, "111111");
+  const std::size_t from = text.find("   Frame=1   JointI=1"), to = text.find("TABLE:  \"FRAME SECTION ASS");
+  text.replace(from, to - from, "   Frame=1   JointI=1   JointJ=41   IsCurved=No\n\n");
+  text +=
+      "\nTABLE:  \"FRAME RELEASE ASSIGNMENTS 1 - GENERAL\"\n   Frame=1   PI=No   V2I=No   V3I=No   TI=No   M2I=No   M3I=No   "
+      "PJ=No   V2J=No   V3J=No   TJ=No   M2J=Yes   M3J=Yes   PartialFix=No\n\n";
+  expect_known("one frame over 41 joints", text, {euler_Hz(3.92660231, i22, 4.0), euler_Hz(3.92660231, i33, 4.0)}, beams);
+  const std::string whole = text + "TABLE:  \"FRAME AUTO MESH ASSIGNMENTS\"\n   Frame=1   AutoMesh=No   AtJoints=No\n\n";
+  EXPECT_EQ(import_tables(whole).model.elements.size(), 1U);
+}
+
 /// A plate of 2 m on its edges, which do not turn along themselves, in 16 × 16 areas, held in its plane.
 std::string plate(const std::string& type, double thickness) {
   constexpr int n = 16;
