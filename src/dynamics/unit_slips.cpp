@@ -70,9 +70,15 @@ std::optional<std::string> density_slip(const fe::Material& m, double speed) {
 struct KnownMaterial {
   double density_kg_m3, speed_m_s;
 };
-constexpr std::array<KnownMaterial, 6> known_materials = {
-    {{7850.0, 5170.0}, {2450.0, 3600.0}, {2700.0, 5080.0}, {480.0, 4800.0}, {750.0, 4200.0}, {1900.0, 1500.0}}};
-constexpr std::size_t known_in_systems = 4;  ///< in kN and m, hardwood and masonry have the numbers of foams in SI units
+constexpr std::array<KnownMaterial, 7> known_materials = {{{7850.0, 5170.0},
+                                                           {2450.0, 3600.0},
+                                                           {2700.0, 5080.0},
+                                                           {480.0, 4800.0},
+                                                           {750.0, 4200.0},
+                                                           {1900.0, 1500.0},
+                                                           {1900.0, 900.0}}};
+constexpr std::size_t known_in_systems = 4;   ///< in kN and m, hardwood and masonry have the numbers of foams in SI units
+constexpr double densest_foam_kg_m3 = 300.0;  ///< no structure is of foam alone
 
 constexpr double alike_in_system = 0.25;  ///< [-] of ln; foams, which have such numbers in SI units, are 0.4 off
 
@@ -138,7 +144,8 @@ constexpr std::array<WeightUnit, 17> weight_units = {
      {1e-3, "kg/m3", 1e-3, "N and m"}}};
 
 /// A density that is a weight per volume, or in another unit of mass: in kg/m3 the material is like a known one.
-std::optional<std::string> weight_slip(const fe::Material& m, double speed) {
+/// @param foams  all materials of the model would be foams in SI units
+std::optional<std::string> weight_slip(const fe::Material& m, double speed, bool foams) {
   const bool timber = timber_weight_N_m3.holds(m.density_kg_m3) && timber_modulus_Pa.holds(m.youngs_modulus_Pa);
   const bool slow = m.density_kg_m3 > denser_than_lead_kg_m3 && speed < slower_than_gold_m_s;
   const bool heavy = m.density_kg_m3 >= densest_kg_m3 || slow || timber;
@@ -148,7 +155,7 @@ std::optional<std::string> weight_slip(const fe::Material& m, double speed) {
     const double density = m.density_kg_m3 * unit.density_kg_m3;
     const bool among_si = *unit.system == '\0';
     const double off = off_known(density, std::sqrt(m.youngs_modulus_Pa * unit.modulus_Pa / density),
-                                 among_si ? known_materials.size() : known_in_systems);
+                                 among_si || foams ? known_materials.size() : known_in_systems);
     if (among_si ? heavy && off < nearest : best == nullptr && off <= alike_in_system) nearest = off, best = &unit;
   }
   if (best == nullptr) return std::nullopt;
@@ -204,7 +211,7 @@ std::optional<std::string> mean_density_slip(const Drawn& all) {
 }
 
 /// @param all  nothing where the volume is not known
-std::optional<std::string> material_slip(const fe::Material& m, const std::optional<Drawn>& all) {
+std::optional<std::string> material_slip(const fe::Material& m, const std::optional<Drawn>& all, bool foams) {
   if (!(m.density_kg_m3 > 0.0)) {
     // A part without mass may be as stiff as one likes, unless no part has any: then it is the structure.
     if (!all || all->own_kg > 0.0 || !(all->points_kg > 0.0)) return std::nullopt;
@@ -213,7 +220,8 @@ std::optional<std::string> material_slip(const fe::Material& m, const std::optio
     return usual ? std::nullopt : modulus_slip(m, all->density_kg_m3(), carried_m_s, carrying_speed_m_s);
   }
   const double speed = std::sqrt(m.youngs_modulus_Pa / m.density_kg_m3);
-  if (const auto weight = weight_slip(m, speed)) return weight;  // E in kPa would explain the speed too, but not the density
+  if (const auto weight = weight_slip(m, speed, foams))
+    return weight;  // E in kPa would explain the speed too, but not the density
   if (speed < usual_speed_m_s.low) return modulus_slip(m, m.density_kg_m3, speed, material_speed_m_s);
   if (speed <= material_speed_m_s.high) return std::nullopt;
   if (const auto density = density_slip(m, speed)) return density;
@@ -292,9 +300,11 @@ std::vector<std::string> unit_slips(const fe::Model& model) {
   const std::optional<Drawn> all = drawn(model);
   std::set<int> used;
   for (const fe::Element& e : model.elements) used.insert(e.material);
+  const bool foams = std::ranges::all_of(
+      used, [&](int at) { return model.materials[static_cast<std::size_t>(at)].density_kg_m3 < densest_foam_kg_m3; });
   for (const int at : used) {
     const fe::Material& m = model.materials[static_cast<std::size_t>(at)];
-    if (const auto slip = material_slip(m, all)) slips.push_back(*slip);
+    if (const auto slip = material_slip(m, all, foams)) slips.push_back(*slip);
   }
   if (const auto slip = all ? mean_density_slip(*all) : std::nullopt) slips.push_back(*slip);
   if (const auto slip = length_slip(model)) slips.push_back(*slip);

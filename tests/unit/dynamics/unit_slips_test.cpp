@@ -108,8 +108,8 @@ TEST(UnitSlips, DensityThatIsAWeight) {
   for (const auto& [modulus, density, said] :
        {std::tuple(210e9, 77000.0, "N/m3"), std::tuple(33e9, 25000.0, "N/m3"), std::tuple(70e9, 26500.0, "N/m3"),
         std::tuple(11e9, 5000.0, "N/m3"), std::tuple(15e9, 8000.0, "N/m3"), std::tuple(30e9, 22500.0, "N/m3"),
-        std::tuple(30e9, 17000.0, "N/m3"), std::tuple(4e9, 18000.0, "N/m3"), std::tuple(200e9, 3.02e6, "WTMASS"),
-        std::tuple(210e9, 7.7e7, "N/mm3"), std::tuple(210e9, 7.85e6, "tonnes"),
+        std::tuple(30e9, 17000.0, "N/m3"), std::tuple(4e9, 18000.0, "N/m3"), std::tuple(1.2e9, 20000.0, "N/m3"),
+        std::tuple(200e9, 3.02e6, "WTMASS"), std::tuple(210e9, 7.7e7, "N/mm3"), std::tuple(210e9, 7.85e6, "tonnes"),
         std::tuple(2.0e11, 490.0 * 515.379, "lbf/ft3 or kip/ft3 (divide by 32.174)"),
         std::tuple(2.76e10, 150.0 * 515.379, "lbf/ft3")}) {
     model.materials[0].youngs_modulus_Pa = modulus;
@@ -132,6 +132,8 @@ TEST(UnitSlips, WeightsInADeckOfOtherUnits) {
                         {3.06e6, 2.5, "tonf/m3"},
                         {2.1e8, 77.0, "kN/m3"},
                         {3e7, 25.0, "kN/m3"},
+                        {5e6, 20.0, "kN/m3, among numbers in kN and m? Divide it by 9.80665"},  // masonry
+                        {1.5e6, 18.0, "kN/m3, among numbers in kN and m"},
                         {2.1e5, 7.7e-5, "N/mm3"},
                         {29e6, 7.3e-4, "lbf and in, with densities in lbf s2/in4? Frequencies hold"},
                         {29e3, 7.3e-7, "kip and in, with densities in kip s2/in4?"},
@@ -147,7 +149,9 @@ TEST(UnitSlips, WeightsInADeckOfOtherUnits) {
       expect_slip(model, factor < 1.0 ? "are the numbers in kN and m, with densities in t/m3? Frequencies hold"
                                       : "are the numbers in N and m, with densities in kg/m3? Frequencies hold");
     }
-  // Foams.
+  // Foams, beside the skins that they hold apart: no structure is of foam alone.
+  model.materials.push_back({"skin", 7e10, 7e10 / 2.6, 0.3, 2700.0});
+  model.elements[1].material = 1;
   for (const auto& [modulus, density] : {std::pair(9e7, 80.0), std::pair(2e7, 35.0), std::pair(4.2e6, 18.5)}) {
     model.materials[0] = {"m", modulus, modulus / 2.6, 0.3, density};
     EXPECT_TRUE(unit_slips(model).empty()) << modulus << " " << density;
