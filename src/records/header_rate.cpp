@@ -35,7 +35,7 @@ const Stated& stated_rate() {
 
 const Stated& stated_interval() {
   static const Stated interval{std::regex(R"(sampl\w*(?:interval|period|time)\w*\b|sampl\w*\b[ _-]*(?:interval|period|time)\w*)"
-                                          R"(|delta[ _]?t|time[ _]?step|interval|\bdt\b)"),
+                                          R"(|delta[ _]?t|time[ _]?step|interval|\bdt(?:_[mu]?s)?\b)"),
                                value_with("ms|us|sec|s")};
   return interval;
 }
@@ -55,12 +55,15 @@ std::optional<double> rate_in_header_line(std::string_view text) {
           !std::regex_search(keyword[0].second, end, value, stated.value, std::regex_constants::match_continuous))
         continue;
       const bool parted = value.length(1) + value.length(3) + value.length(4) > 0, counts = keyword[1].matched;
-      const std::string unit = value[6].matched ? value[6] : value[2];
+      const std::string word = keyword[0];  // "sampling_period_us"
+      const std::string unit = value[6].matched   ? value[6]
+                               : value[2].matched ? value[2].str()
+                                                  : word.substr(word.rfind('_') + 1);
       std::string digits = value[5];
       if (const std::size_t comma = digits.find(','); comma != std::string::npos) digits[comma] = '.';
       double number = 0.0;
       std::from_chars(digits.data(), digits.data() + digits.size(), number);
-      if (!parted || number <= 0.0 || (counts && unit.empty())) continue;
+      if (!parted || number <= 0.0 || (counts && !value[6].matched && !value[2].matched)) continue;
       if (!interval) return number * (unit == "khz" ? 1000.0 : 1.0);
       return 1.0 / (number * (unit == "ms" ? 1e-3 : unit == "us" ? 1e-6 : 1.0));
     }

@@ -131,6 +131,9 @@ TEST(LongGaps, AClockThatJumpsFarIsRefusedWithTheLine) {
 
 TEST(HeaderRate, LinesOfLoggers) {
   const auto rate = [](const char* line) { return rate_in_header_line(line).value_or(0.0); };
+  EXPECT_DOUBLE_EQ(rate("SamplingPeriod_us=10000"), 100.0);
+  EXPECT_DOUBLE_EQ(rate("dt_ms = 10"), 100.0);
+  EXPECT_DOUBLE_EQ(rate("sampling_rate_khz: 0.1"), 100.0);
   EXPECT_NEAR(rate("Sampling rate;200,5;Hz"), 200.5, 1e-12);
   EXPECT_NEAR(rate("# fs = 100"), 100.0, 1e-12);
   EXPECT_NEAR(rate("# dt = 5 ms"), 200.0, 1e-12);
