@@ -6,6 +6,7 @@
 #include <iterator>
 #include <limits>
 
+#include "records/clock_turns.hpp"
 #include "records/lost_rows.hpp"
 #include "records/round_rate.hpp"
 
@@ -26,14 +27,8 @@ constexpr std::size_t kStretch = 32;  ///< stamps of a stretch; gaps in half of 
 constexpr double kEven = 1.0;         ///< [samples] most scatter of even stamps about a line
 constexpr double kNone = std::numeric_limits<double>::infinity();
 constexpr double kSharesOfADay = 0.02;  ///< of a period: a step back from its last to its first 2 % begins it anew
-/// Where clocks begin anew: at midnight in s, ms, us and days; where 32 bits of ticks are full.
-constexpr std::array<double, 5> kPeriods = {86400.0, 86400e3, 86400e6, 1.0, 4294967296.0};
-
-/// Seconds since midnight of a time of day as one number: 235959.5 gives 86399.5.
-double seconds_of_digits(double hhmmss) {
-  const double hours_and_minutes = std::floor(hhmmss / 100.0);
-  return hhmmss - 40.0 * hours_and_minutes - 2400.0 * std::floor(hours_and_minutes / 100.0);
-}
+/// Where clocks begin anew: at midnight in s, ms, us and days; where 32 bits of ticks are full; with the GPS week in s, ms.
+constexpr std::array<double, 7> kPeriods = {86400.0, 86400e3, 86400e6, 1.0, 4294967296.0, 604800.0, 604800e3};
 
 double quantile(std::vector<double> values, double share) {
   if (values.empty()) return 0.0;
@@ -376,6 +371,11 @@ void StampedRows::add(double given) {
       stamp += passed ? period : -period;
       break;
     }
+    if (const double hour = hour_again(last_, stamp); hour > 0.0) {
+      hour_again_ = row;
+      begun_ += hour;
+      stamp += hour;
+    }
     counts_ = counts_ && std::abs(stamp - last_ - 1.0) <= std::min(1e-3, 2e-7 * std::abs(stamp));  // of single precision
     if (stamp < last_) ++falls_;
     if (stamp == last_) return;
@@ -439,6 +439,7 @@ double StampedRows::likely_unit_s(double step, double first) {
 
 RecordClock StampedRows::clock(double unit_s) const {
   RecordClock found;
+  found.hour_again = hour_again_;
   const std::size_t n = stamps_.size();
   found.stands_still = n == 1 && row_ > 1;
   if (n < 2) return found;

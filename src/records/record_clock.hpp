@@ -22,6 +22,7 @@ struct RecordClock {
   std::vector<ClockGap> gaps;      ///< ascending by row
   Eigen::Index steps_back = -1;    ///< row whose stamp lies before that of the row above by more than the scatter; -1 for none
   Eigen::Index changes_rate = -1;  ///< row from which on another rate holds; -1 for none
+  Eigen::Index hour_again = -1;    ///< row at which an hour began a second time, as summer time was over; -1 for none
   bool reversed = false;           ///< the stamps fall from the first to the last
   bool stands_still = false;       ///< all stamps are equal
   [[nodiscard]] Eigen::Index missing() const;   ///< samples in all gaps
@@ -41,7 +42,8 @@ struct RecordClock {
 /// by packets. Rate and deviation come from a robust line (Tukey's biweight) through t against k + m; the deviation is the
 /// larger one of white residuals and of their means in ten blocks, and at least that of the unknown position of a row in a
 /// shared stamp. A step back from the end of a day to its begin is midnight, with a date too, and one from the end of 32 bits
-/// of ticks their overflow; a time of day as one number (hhmmss) goes on at 59. Memory: sixteen bytes a stamp.
+/// of ticks their overflow, from the end of an hour to its begin the end of summer time; a time of day as one number (hhmmss)
+/// goes on at 59. Memory: sixteen bytes a stamp.
 class StampedRows {
  public:
   /// The next row's stamp in any unit; NaN where it has none.
@@ -78,7 +80,7 @@ class StampedRows {
   /// Takes all stamps as times of day (hhmmss, hhmmssfff) if the number jumps where a minute ends, but that time does not.
   void take_as_digits(double given);
   std::vector<Stamp> stamps_;  ///< the first row of each
-  Eigen::Index row_ = 0, without_ = 0, falls_ = 0;
+  Eigen::Index row_ = 0, without_ = 0, falls_ = 0, hour_again_ = -1;
   double begun_ = 0.0, last_ = 0.0;  ///< sum of the periods that are over; last stamp
   double period_ = 0.0;              ///< of the clock, once it has begun anew
   double digits_ = 0.0;              ///< of one second in stamps hhmmss (1) and hhmmssfff (1000); 0 for other stamps

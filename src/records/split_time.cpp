@@ -11,7 +11,7 @@ namespace twindeck::records {
 
 namespace {
 
-constexpr TimeParts kNoParts = {-1, -1, -1, -1, -1, -1, -1};
+constexpr TimeParts kNoParts = {-1, -1, -1, -1, -1, -1, -1, -1, -1};
 
 /// Names of a part of a time, in lower case, and its range. A column named as year may have two digits.
 struct Part {
@@ -25,7 +25,9 @@ constexpr std::array<Part, kTimeParts> kParts = {
      {"|hour|hours|hh|hr|stunde|ora|ore|hora|heure|", 0.0, 25.0},
      {"|minute|minutes|min|mi|mn|mm|minuto|minuti|", 0.0, 60.0},
      {"|second|seconds|sec|ss|s|sekunde|secondo|secondi|segundo|seconde|", 0.0, 61.0},
-     {"|ms|msec|millis|millisec|millisecond|milliseconds|millisekunde|millisecondi|", 0.0, 1000.0}}};
+     {"|ms|msec|millis|millisec|millisecond|milliseconds|millisekunde|millisecondi|", 0.0, 1e3},
+     {"|us|usec|usecs|micros|microsec|microsecond|microseconds|", 0.0, 1e6},
+     {"|ns|nsec|nsecs|nanos|nanosec|nanosecs|nanosecond|nanoseconds|", 0.0, 1e9}}};
 
 /// Whether the columns of the parts hold possible values in each row.
 bool hold_parts(const std::vector<std::vector<std::string_view>>& rows, const TimeParts& parts, bool decimal_comma,
@@ -55,6 +57,35 @@ TimeParts by_name(const std::vector<std::string>& names) {
   return parts;
 }
 
+/// Whole seconds and a column with the rest of each, whose names differ in the last word alone.
+std::optional<TimeParts> whole_seconds_and_rest(const std::vector<std::vector<std::string_view>>& rows,
+                                                const std::vector<std::string>& names, bool decimal_comma) {
+  const auto split = [&](std::size_t c) {
+    const std::string name = lower_case(trimmed(names[c]));
+    const std::size_t last = name.find_last_of("._/ ") + 1;
+    return std::pair(name.substr(0, last), name.substr(last));
+  };
+  const auto holds = [&](std::size_t c, double below) {
+    return std::ranges::all_of(rows, [&](const std::vector<std::string_view>& cells) {
+      const auto value = number_in(cells[c], decimal_comma);
+      return value && *value >= 0.0 && *value < below && *value == std::floor(*value);
+    });
+  };
+  for (std::size_t c = 0; c < names.size(); ++c) {
+    if (!is_one_of("|s|sec|secs|second|seconds|", split(c).second)) continue;
+    for (std::size_t rest = 0; rest < names.size(); ++rest)
+      for (std::size_t k = kMillisecond; k < kTimeParts; ++k) {
+        if (!is_one_of(kParts[k].names, split(rest).second) || split(rest).first != split(c).first) continue;
+        if (!holds(c, HUGE_VAL) || !holds(rest, kParts[k].below)) continue;
+        TimeParts parts = kNoParts;
+        parts[kSecond] = static_cast<int>(c);
+        parts[k] = static_cast<int>(rest);
+        return parts;
+      }
+  }
+  return {};
+}
+
 }  // namespace
 
 std::optional<TimeParts> find_time_parts(const std::vector<std::vector<std::string_view>>& rows,
@@ -64,14 +95,17 @@ std::optional<TimeParts> find_time_parts(const std::vector<std::vector<std::stri
   const auto there = [&](std::size_t k) { return parts[k] >= 0; };
   if (stamped) {
     std::fill_n(parts.begin(), kMillisecond, -1);
-    return there(kMillisecond) && hold_parts(rows, parts, decimal_comma, true) ? std::optional(parts) : std::nullopt;
+    const bool rest = there(kMillisecond) || there(kMicrosecond) || there(kNanosecond);
+    return rest && hold_parts(rows, parts, decimal_comma, true) ? std::optional(parts) : std::nullopt;
   }
   const bool time = there(kHour) && there(kMinute) && there(kSecond), date = there(kYear) && there(kDay);
   if (!date) std::fill_n(parts.begin(), kHour, -1);
   if (time && hold_parts(rows, parts, decimal_comma, true)) return parts;
+  if (!there(kHour))
+    if (const auto pair = whole_seconds_and_rest(rows, names, decimal_comma)) return pair;
   for (int c = 0; c + static_cast<int>(kSecond) < static_cast<int>(rows.front().size()); ++c) {
     for (const int year : {0, 2}) {
-      parts = {c + year, c + 1, c + 2 - year, c + 3, c + 4, c + 5, millisecond};
+      parts = {c + year, c + 1, c + 2 - year, c + 3, c + 4, c + 5, millisecond, -1, -1};
       if (hold_parts(rows, parts, decimal_comma, false)) return parts;
     }
   }
@@ -90,7 +124,8 @@ std::optional<double> seconds_of_parts(const std::vector<std::string_view>& cell
   const double days = parts[kYear] < 0 ? 0.0
                                        : days_since_1970(static_cast<int>(value[kYear]), static_cast<unsigned>(month),
                                                          static_cast<int>(value[kDay]));
-  return 86400.0 * days + 3600.0 * value[kHour] + 60.0 * value[kMinute] + value[kSecond] + 1e-3 * value[kMillisecond];
+  return 86400.0 * days + 3600.0 * value[kHour] + 60.0 * value[kMinute] + value[kSecond] + 1e-3 * value[kMillisecond] +
+         1e-6 * value[kMicrosecond] + 1e-9 * value[kNanosecond];
 }
 
 }  // namespace twindeck::records

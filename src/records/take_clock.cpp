@@ -43,6 +43,9 @@ void note_gaps(RecordInfo& info, Index sign, Index all) {
 void note_faults(RecordInfo& info) {
   const RecordClock& clock = info.clock;
   if (clock.stands_still) info.notes.push_back(info.rate_source + " stands still and says no rate");
+  if (clock.hour_again >= 0)
+    info.notes.push_back("an hour begins a second time at " + place_of(info, clock.hour_again) +
+                         ": read as the end of summer time, the record goes on");
   if (clock.reversed) info.notes.push_back(info.rate_source + ": the time runs backwards throughout");
   if (clock.steps_back >= 0) info.notes.push_back("the time runs backwards at " + place_of(info, clock.steps_back));
   constexpr double even = 2.0;  // [samples] largest scatter of unshared stamps about even ones

@@ -141,6 +141,30 @@ TEST(RecordClock, MidnightIsNoStepBack) {
   EXPECT_TRUE(!bursts.gaps.empty() || bursts.steps_back >= 0);
 }
 
+TEST(RecordClock, AnHourThatBeginsAgainIsTheEndOfSummerTime) {
+  const double night = 1729990790.0;  // s since 1970 of 00:59:50 on a clock that counts days: any full hour
+  for (const double unit : {1.0, 1e3, 1e6, 1.0 / 86400.0}) {
+    const RecordClock clock = stamped(3000, [&](int i) {
+                                const double t = night + i / 100.0;
+                                return unit * (i < 1000 ? t : t - 3600.0);
+                              }).clock(1.0 / unit);
+    EXPECT_NEAR(clock.rate_Hz, 100.0, 1e-3) << unit;
+    EXPECT_TRUE(clock.gaps.empty()) << unit;
+    EXPECT_EQ(clock.hour_again, 1000) << unit;
+  }
+  // Away from a full hour the clock was set, and what was lost is not known.
+  const RecordClock set =
+      stamped(3000, [&](int i) { return night - 600.0 + i / 100.0 - (i < 1000 ? 0.0 : 3600.0); }).clock(1.0);
+  EXPECT_EQ(set.hour_again, -1);
+  EXPECT_FALSE(set.gaps.empty());
+}
+
+TEST(RecordClock, AGpsWeekBeginsAnew) {
+  for (const double unit : {1.0, 1e3})
+    expect_rate(stamped(2500, [&](int i) { return unit * std::fmod(604790.0 + i / 100.0, 604800.0); }).clock(1.0 / unit), 100.0,
+                "week");
+}
+
 TEST(RecordClock, AFullCounterOf32BitsBeginsAnew) {
   for (const double ticks : {1e3, 1e6})
     expect_rate(stamped(2500, [&](int i) { return std::fmod(4294967296.0 - 5.0 * ticks + i * ticks / 100.0, 4294967296.0); })

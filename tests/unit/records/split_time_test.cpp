@@ -56,6 +56,18 @@ void expect_split_clock(const std::string& text, const std::string& what) {
   EXPECT_NEAR(record.samples(1400, 1), std::sin(0.7 * 1400), 1e-4) << what;
 }
 
+TEST(SplitTime, WholeSecondsAndTheirRest) {
+  const auto pair = [](double per_s) {
+    return [per_s](const PartsOfTime& s) {
+      return fmt::format("{},{}", 1704067190 + (s.day == 1 ? 10 : 0) + (s.day == 1 ? 60 * s.minute + s.second : s.second - 50),
+                         std::lround(1e-3 * s.ms * per_s));
+    };
+  };
+  expect_split_clock(split_table("sec,nanosec", ",", pair(1e9)), "ROS 2");
+  expect_split_clock(split_table("field.header.stamp.secs,field.header.stamp.nsecs", ",", pair(1e9)), "ROS 1");
+  expect_split_clock(split_table("tv_sec,tv_usec", ",", pair(1e6)), "timeval");
+}
+
 TEST(SplitTime, SixColumnsByNameOrWithout) {
   const auto ymd = [](const PartsOfTime& s) {
     return fmt::format("{},{},{},{},{},{}.{:03}", s.year, s.month, s.day, s.hour, s.minute, s.second, s.ms);
