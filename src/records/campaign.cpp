@@ -140,7 +140,7 @@ std::string check_rate(const Campaign& campaign, const CampaignRecord& record, c
         place, fmt::format("the time stamps run at different rates, at another from {} on", place_of(info, clock.changes_rate)),
         "give each rate its own record");
   for (const std::string& note : info.notes)
-    for (const char* of_channels : {"different rates", "different starts"})
+    for (const char* of_channels : {"different rates", "different starts", "sensors in turn"})
       if (note.find(of_channels) != std::string::npos)
         throw InputError({record.file.string(), 0, ""}, note, "give the channels of each a file and a [[record]] of their own");
   if (info.rate_Hz <= 0.0) return "";
@@ -215,6 +215,40 @@ void refuse_absurd(const RecordSamples& samples, const CampaignRecord& record) {
       throw InputError({record.file.string(), 0, record.channels[static_cast<std::size_t>(c)]},
                        fmt::format("holds nothing above {:.6g}, which no sensor gives", peak),
                        "check the file, its type of numbers and the channel's gain");
+  }
+}
+
+/// Refuses a channel that lies at both ends of its range and never in the middle quarter: numbers with a sign that were written
+/// without it (two's complement) jump from one end to the other where the motion passes 0.
+void refuse_without_sign(const RecordSamples& samples, const CampaignRecord& record, const Campaign& campaign) {
+  constexpr int often = 20;           // least number of jumps: an offset jumps once
+  constexpr std::size_t levels = 16;  // least number of values at either end: a sensor of few bits toggles between two
+  for (Index c = 0; c < samples.values.cols(); ++c) {
+    if (campaign.channel(record.channels[static_cast<std::size_t>(c)]).is_input) continue;  // a shaker may be switched
+    double low = std::numeric_limits<double>::infinity(), high = -low;
+    for (const double value : samples.values.col(c)) low = std::fmin(low, value), high = std::fmax(high, value);
+    const double apart = 3.0 / 8.0 * (high - low);  // of the middle quarter from either end
+    int jumps = 0;
+    bool was_at_top = false;
+    std::set<double> lowest, highest;
+    for (const double value : samples.values.col(c)) {
+      if (std::isnan(value)) continue;
+      if (value > low + apart && value < high - apart) {
+        jumps = 0;
+        break;
+      }
+      const bool at_top = value >= high - apart;
+      jumps += at_top != was_at_top ? 1 : 0;
+      was_at_top = at_top;
+      if (auto& some = at_top ? highest : lowest; some.size() < levels) some.insert(value);
+    }
+    if (jumps < often || std::min(lowest.size(), highest.size()) < levels) continue;
+    throw InputError(
+        {record.file.string(), 0, record.channels[static_cast<std::size_t>(c)]},
+        fmt::format("lies at both ends of its range from {:.6g} to {:.6g} and never in between: numbers with a sign "
+                    "were written without it",
+                    low, high),
+        "export them with their sign, or subtract the full range (65536 of 16 bits) from those at the upper end");
   }
 }
 
@@ -401,6 +435,7 @@ RecordSamples read_record(const Campaign& campaign, const CampaignRecord& record
     samples.values = file.samples(Eigen::all, match(file.info));
   }
   refuse_absurd(samples, record);
+  refuse_without_sign(samples, record, campaign);
   for (Index c = 0; c < samples.values.cols(); ++c) samples.values.col(c) *= gains[static_cast<std::size_t>(c)];
   return samples;
 }

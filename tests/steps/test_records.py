@@ -245,6 +245,11 @@ class Refusals(Records):
         (self.folder / "header/records/ST1/record.npy").write_bytes(b"\x93NUMPY\x01\x00" + len(header).to_bytes(2, "little") + header.encode() + bytes(320))
         self.refused("header", "record.npy: holds 320 bytes of data, expected 28800000000000 for 900000000000 x 4 values")
 
+    def test_numbers_without_their_sign_are_refused(self):
+        counts = np.round(self.data / np.abs(self.data).max() * 20000).astype(int)
+        np.save(self.campaign("unsigned") / "records/ST1/record.npy", (counts & 0xFFFF).astype(float))
+        self.refused("unsigned", "record.npy: c01: lies at both ends of its range from 0 to 65535 and never in between", "subtract the full range")
+
 
 del Records  # a base, no test of its own
 
