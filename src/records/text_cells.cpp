@@ -115,4 +115,36 @@ std::optional<double> number_in(std::string_view cell, bool decimal_comma) {
   return {};
 }
 
+bool looks_like_unit(std::string_view cell) {
+  if (cell.find('_') != std::string_view::npos) return false;
+  if (cell.size() > 1 && ((cell.front() == '[' && cell.back() == ']') || (cell.front() == '(' && cell.back() == ')')))
+    return true;
+  constexpr std::size_t longest = 12;  // bytes of a unit without brackets
+  const auto of_unit = [](char c) {
+    return std::isalnum(static_cast<unsigned char>(c)) != 0 ||
+           std::string_view("-%/*^.\xC2\xB0\xB2\xB5\xBC\xCE").find(c) != std::string_view::npos;
+  };
+  return cell.size() <= longest && std::ranges::all_of(cell, of_unit);
+}
+
+bool is_known_unit(std::string_view cell) {
+  std::string text = lower_case(trimmed(cell));
+  if (text.size() > 2 && (text.front() == '[' || text.front() == '(')) text = text.substr(1, text.size() - 2);
+  return is_one_of("|s|sec|ms|g|mg|m/s2|m/s^2|m/s\xC2\xB2|m/s/s|v|mv|m/s|mm/s|mm|m|um|\xC2\xB5m|hz|kn|n|gal|cm/s2|", text);
+}
+
+void split_unit(std::string& name, std::string& unit) {
+  const std::string_view text = trimmed(name);
+  if (unit.empty() && !text.empty() && (text.back() == ']' || text.back() == ')')) {
+    const std::size_t open = text.find_last_of("[(");
+    const std::string_view before = trimmed(text.substr(0, std::min(open, text.size())));
+    const std::string_view within = open == std::string_view::npos ? "" : text.substr(open + 1, text.size() - open - 2);
+    if (open != std::string_view::npos && !before.empty() && within.find_first_of("])") == std::string_view::npos) {
+      unit = std::string(within);
+      name = std::string(before);
+    }
+  }
+  if (unit.size() > 2 && (unit.front() == '[' || unit.front() == '(')) unit = unit.substr(1, unit.size() - 2);
+}
+
 }  // namespace twindeck::records

@@ -25,4 +25,10 @@ using io::append_utf8;
 /// Latin-1 as UTF-8.
 [[nodiscard]] std::string from_latin1(std::string_view text);
 
+/// Whether a cell of a header may be a unit: short, or in brackets. Whether it is one that loggers write.
+[[nodiscard]] bool looks_like_unit(std::string_view cell);
+[[nodiscard]] bool is_known_unit(std::string_view cell);
+/// "Acc 1 [m/s2]" -> name and unit, which may be given apart, in brackets too.
+void split_unit(std::string& name, std::string& unit);
+
 }  // namespace twindeck::records

@@ -174,37 +174,14 @@ Run first_of_data(const std::vector<std::string>& lines, const std::vector<Run>&
   return longest;
 }
 
-bool looks_like_unit(std::string_view cell) {
-  if (cell.find('_') != std::string_view::npos) return false;
-  if (cell.size() > 1 && ((cell.front() == '[' && cell.back() == ']') || (cell.front() == '(' && cell.back() == ')')))
-    return true;
-  constexpr std::size_t longest = 12;  // bytes of a unit without brackets
-  const auto of_unit = [](char c) {
-    return std::isalnum(static_cast<unsigned char>(c)) != 0 ||
-           std::string_view("-%/*^.\xC2\xB0\xB2\xB5\xBC\xCE").find(c) != std::string_view::npos;
-  };
-  return cell.size() <= longest && std::ranges::all_of(cell, of_unit);
-}
-
-bool is_known_unit(std::string_view cell) {
-  std::string text = lower_case(trimmed(cell));
-  if (text.size() > 2 && (text.front() == '[' || text.front() == '(')) text = text.substr(1, text.size() - 2);
-  return is_one_of("|s|sec|ms|g|mg|m/s2|m/s^2|m/s\xC2\xB2|m/s/s|v|mv|m/s|mm/s|mm|m|um|\xC2\xB5m|hz|kn|n|gal|cm/s2|", text);
-}
-
-/// "Acc 1 [m/s2]" -> name and unit.
-void split_unit(std::string& name, std::string& unit) {
-  const std::string_view text = trimmed(name);
-  if (unit.empty() && !text.empty() && (text.back() == ']' || text.back() == ')')) {
-    const std::size_t open = text.find_last_of("[(");
-    const std::string_view before = trimmed(text.substr(0, std::min(open, text.size())));
-    const std::string_view within = open == std::string_view::npos ? "" : text.substr(open + 1, text.size() - open - 2);
-    if (open != std::string_view::npos && !before.empty() && within.find_first_of("])") == std::string_view::npos) {
-      unit = std::string(within);
-      name = std::string(before);
-    }
-  }
-  if (unit.size() > 2 && (unit.front() == '[' || unit.front() == '(')) unit = unit.substr(1, unit.size() - 2);
+/// Whether the first column counts the rows, as those that R and pandas write without a name.
+bool counts_rows(const std::vector<std::string>& lines, std::size_t first, const TextLayout& layout) {
+  constexpr std::size_t looked_at = 3;
+  std::vector<double> count;
+  for (std::size_t i = first; i < std::min(lines.size(), first + looked_at); ++i)
+    count.push_back(number_in(cells_of(lines[i], layout.separator).front(), false).value_or(-1.0));
+  return count.size() == looked_at && (count[0] == 0.0 || count[0] == 1.0) && count[1] == count[0] + 1.0 &&
+         count[2] == count[1] + 1.0;
 }
 
 /// Reads the names from the nearest line above the numbers, or from the next one if that holds units. Some loggers write a
@@ -218,6 +195,8 @@ void read_names(const std::vector<std::string>& lines, std::size_t first, TextLa
     if (cells.size() < layout.columns && cells_of(lines[i], layout.separator).size() >= layout.columns)
       cells.resize(layout.columns);
     if (cells.size() == layout.columns + 1 && is_comment(cells.back())) cells.pop_back();
+    if (above.empty() && cells.size() + 1 == layout.columns && counts_rows(lines, first, layout))
+      cells.insert(cells.begin(), "");
     if (cells.size() != layout.columns) {
       if (above.empty() && cells.size() > 1) {
         layout.unaligned.assign(cells.begin(), cells.end());
@@ -399,6 +378,28 @@ void find_time(const std::vector<std::vector<std::string_view>>& rows, TextLayou
   find_numbers_of_time(rows, distinct, layout);
 }
 
+/// Notes rows of several sensors in turn ("time, id, ax, ay" with id 1, 2, 3, 1, 2, 3 …): a column that is named after sensors
+/// repeats a few different cells throughout, and as many rows share each stamp. Numbers of samples within a packet do so too.
+void note_rows_in_turn(const std::vector<std::vector<std::string_view>>& rows, TextLayout& layout) {
+  constexpr std::size_t turns = 8;  // least number of them
+  for (std::size_t c = 0; c < layout.names.size(); ++c) {
+    if (!is_one_of("|id|sensor|sensor_id|sensor id|sensorid|node|node_id|channel|channel_id|device|device_id|",
+                   lower_case(layout.names[c])))
+      continue;
+    std::size_t each = 1;
+    while (each * turns < rows.size() && rows[each][c] != rows[0][c]) ++each;
+    bool in_turn = each > 1 && each * turns < rows.size();
+    for (std::size_t r = 0; r < rows.size() && in_turn; ++r) {
+      const std::size_t first = r - r % each;
+      const auto time = static_cast<std::size_t>(std::max(layout.time_column, 0));
+      in_turn = rows[r][c] == rows[r % each][c] && (layout.time_column < 0 || rows[r][time] == rows[first][time]);
+    }
+    if (in_turn)
+      layout.notes.push_back(fmt::format("the rows are of {} sensors in turn, by column '{}': write their values side by side",
+                                         each, layout.names[c]));
+  }
+}
+
 /// Whether a line is a row of the table with its last cells missing, or with words for missing values only.
 bool is_incomplete_row(const std::string& line, const TextLayout& layout) {
   std::size_t columns = 0;
@@ -486,6 +487,7 @@ TextLayout find_layout(const fs::path& file) {
   const auto rows = first_rows(lines, first, layout);
   refuse_thousands(rows, layout, file);
   find_time(rows, layout);
+  note_rows_in_turn(rows, layout);
   return layout;
 }
 
