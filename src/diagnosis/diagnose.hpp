@@ -12,7 +12,6 @@
 #include "diagnosis/intervals.hpp"
 #include "diagnosis/progress.hpp"
 #include "diagnosis/residual_test.hpp"
-#include "diagnosis/scatter_scales.hpp"
 
 namespace twindeck::diagnosis {
 
@@ -78,12 +77,11 @@ struct FormReport {
 
 struct Diagnosis {
   Verdict verdict = Verdict::none;
-  std::string message;                ///< one line for people
-  double log_odds = 0.0;              ///< of all answers together against nothing
-  double threshold = 0.0;             ///< ln odds above which there is an answer
-  double probability = 0.0;           ///< probability of a cause
-  ResidualTest residual;              ///< with the causes in the model
-  std::vector<ScatterScale> scatter;  ///< with the causes in the model; filled by scatter_scales on request
+  std::string message;       ///< one line for people
+  double log_odds = 0.0;     ///< of all answers together against nothing
+  double threshold = 0.0;    ///< ln odds above which there is an answer
+  double probability = 0.0;  ///< probability of a cause
+  ResidualTest residual;     ///< with the causes in the model
   bool after_extension = false;
   std::vector<Effect> effects;
   std::vector<LocationScore> localisation;

@@ -18,7 +18,7 @@ def diagnosis(**changes):
     told = {"schema": 2, "verdict": "named", "message": SENTENCES["why"], "sentences": dict(SENTENCES),
             "detection": {"log_odds": 53.2, "threshold": 2.94, "probability": 0.99},
             "residual_test": {"statistic": 120.0, "dof": 118, "p_value": 0.4, "block_p_value": 0.5, "stage": "after extension", "blocks": []},
-            "scatter": [], "account": [],
+            "account": [],
             "effects": [{"cause": "fric", "location": "dampers:C1,C2", "cluster": ["fric@dampers:C1,C2", "mass@node:725"], "probability": 0.87,
                          "log_odds": 53.2, "split_by": "the modes with dampers at two amplitudes",
                          "parameters": [parameter("Fc_N", "N", 434.0, 181.0, 608.0), parameter("k_lock_N_m", "N/m", 5.4e6, 4.7e6, 6.4e6)],

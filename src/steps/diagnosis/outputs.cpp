@@ -330,10 +330,6 @@ void write_diagnosis(const Diagnosis& result, const std::vector<diagnosis::Findi
   json["sentences"] = listed_sentences(told.sentences);
   json["detection"] = {{"log_odds", result.log_odds}, {"threshold", result.threshold}, {"probability", result.probability}};
   json["residual_test"] = residual_json(result);
-  json["scatter"] = nlohmann::ordered_json::array();
-  for (const auto& s : result.scatter)
-    json["scatter"].push_back(
-        {{"of", s.of}, {"rows", s.rows}, {"times_stated", s.scale}, {"low", s.low}, {"high", s.high}, {"level", 0.90}});
   json["account"] = nlohmann::ordered_json::array();
   for (const diagnosis::Finding& finding : account)
     json["account"].push_back({{"kind", finding.kind},

@@ -367,7 +367,6 @@ Status run_diagnosis(const DiagnosisConfig& config, const DiagnosisFiles& files,
                                      inputs.places);
   const diagnosis::IdsInWords ids = diagnosis::ids_in_words(places, inference, result.ranking);
   diagnosis::put_into_words(result, places, ids);
-  result.scatter = diagnosis::scatter_scales(inference, result.after);
   const diagnosis::Inference judged(result.with_form ? *result.with_form : map, entries.candidates);
   write_tables(judged, entries, result, context.out);
   write_extension(inputs, result, context);
