@@ -8,6 +8,7 @@
 
 #include "core/error.hpp"
 #include "core/lists.hpp"
+#include "identification/changing_channels.hpp"
 #include "identification/channel_lag.hpp"
 #include "identification/common_motion.hpp"
 #include "identification/doubts.hpp"
@@ -281,6 +282,7 @@ void identify_condition(ConditionResult& result, const IdentificationSettings& c
     estimate_lags(setup.conditioned, setup.found);
     const std::string late = lag_warning(setup.conditioned, setup.found);
     if (!late.empty()) reporter.warn(late);
+    for (const std::string& change : changes_within_records(setup.conditioned, setup.found)) reporter.warn(change);
   }
   merge_setups(result);
   if (result.setups.size() > 1 && is_output_only(result.setups.front().conditioned) && is_one_rate(result)) {

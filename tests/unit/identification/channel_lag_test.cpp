@@ -53,6 +53,16 @@ TEST(EstimateLags, AChosenLagIsFoundInEitherDirection) {
   }
 }
 
+// Phases repeat after half a turn: beyond a quarter of the highest period (0.05 s) the other modes tell the lag.
+TEST(EstimateLags, ALagOfMoreThanAQuarterPeriodIsFound) {
+  for (const double lag : {0.07, -0.07, 0.25}) {
+    Conditioned conditioned = three_channels();
+    estimate_lags(conditioned, lagging({0.8, 2.0, 3.1, 5.0}, lag));
+    EXPECT_NEAR(conditioned.quality[1].lag_s.value_or(9.0), lag, 1e-12);
+    EXPECT_NEAR(conditioned.quality[2].lag_s.value_or(9.0), 0.0, 1e-12);
+  }
+}
+
 // Variance of a phase (0.001/0.5)² + (0.001/0.6)² = s²; of the slope s² / sum omega².
 TEST(EstimateLags, TheDeviationIsThatOfALeastSquaresSlope) {
   Conditioned conditioned = three_channels();
