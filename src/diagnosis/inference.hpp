@@ -17,12 +17,12 @@ struct Fit {
   std::vector<Cause> causes;  ///< at their best magnitudes
   updating::JointMap map;     ///< of [x; coordinates of the causes], on the training rows
   FeatureMap::Base base;
-  Prediction all;                  ///< at the fit, every row
-  Eigen::MatrixXd total_factor;    ///< L, L L' = Sigma_id + J P J' + free scales, causes not included
-  Eigen::VectorXd whitened;        ///< w = L^-1 (y - g + J x): N(0, I) where nothing is missing
-  double chi_squared = 0.0;        ///< w'w
-  double log_determinant = 0.0;    ///< of Sigma_tot
-  Eigen::MatrixXd cause_jacobian;  ///< L^-1 dg/da (n_train × n_coordinates of causes)
+  Prediction all;                   ///< at the fit, every row
+  Eigen::MatrixXd total_factor;     ///< L, L L' = Sigma_id + J P J' + free scales, causes not included
+  Eigen::VectorXd whitened;         ///< w = L^-1 (y - g + J x): N(0, I) where nothing is missing
+  double chi_squared = kNotFitted;  ///< w'w
+  double log_determinant = 0.0;     ///< of Sigma_tot
+  Eigen::MatrixXd cause_jacobian;   ///< L^-1 dg/da (n_train × n_coordinates of causes)
   /// Whether the fit could be made: the model predicts the rows and their derivatives there.
   [[nodiscard]] bool made() const { return !(chi_squared >= kNotFitted); }
 };

@@ -58,6 +58,7 @@ std::vector<ErrorClass> classes_in_words(const LawEvidence& evidence, const std:
   add(kShapes, "shapes", "of the stiffness, at random in the model's modes", kUnitOfClasses);
   add(kKinks, "channels of shapes", "of a shape's norm at each channel", kUnitOfKinks);
   add(kGains, "gains", "of each channel's gain", kUnitOfClasses);
+  add(kElements, "elements", "of the stated scatter of elements", 1.0);
   for (std::size_t c = 0; c < contrasts.size(); ++c)
     add(kFirstContrast + static_cast<int>(c), "changes with " + contrasts[c].key, "of frequencies and shapes together",
         kUnitOfClasses);
@@ -187,7 +188,10 @@ class ByLaw {
 
   void judge_accounts() {
     std::vector<PossibleAnswer> answers;
-    for (const LawAccount& account : search_.accounts) answers.push_back({account.log_weight, false});
+    // Where no account was worth a fit, none is an answer: their weights at the base are not those of "nothing" at its own fit.
+    const bool any = std::ranges::any_of(search_.accounts, &LawAccount::scored);
+    for (const LawAccount& account : search_.accounts)
+      answers.push_back({any ? account.log_weight : LawEvidence{}.log_evidence, false});
     for (const double w : search_.else_weight) answers.push_back({w, true});
     judgement_ = judge(weight_of_nothing(), answers);
   }

@@ -24,7 +24,8 @@ constexpr double kKeptMagnitudes = 10.0;  // nats below the best; smaller terms 
 constexpr double kOneFit = 0.01;          // prior deviations; nearer fits count as equal
 constexpr double kStands = 1.0;           // least gain in nats of a further fit
 
-/// Classes of a set of causes. The effect sets the scale of the remaining change in each of its contrasts.
+/// Classes of a set of causes. The effect sets the scale of the remaining change in each of its contrasts. Where they
+/// are several, how the effect is divided is unknown, and nothing may remain in one of them.
 std::vector<ActiveClass> classes_of(const LawSearch& search, const LawSystem& system, const LawAccount& account,
                                     double effect) {
   std::vector<ActiveClass> out = lasting_classes(system);
@@ -34,7 +35,8 @@ std::vector<ActiveClass> classes_of(const LawSearch& search, const LawSystem& sy
     contrasts.insert(own.begin(), own.end());
   }
   for (const int contrast : contrasts)
-    if (contrast >= 0) out.push_back({kFirstContrast + contrast, left_scale(effect)});
+    if (contrast >= 0)
+      out.push_back({kFirstContrast + contrast, left_scale(effect), contrasts.size() == 1 ? std::log(kLeftWithin) : 0.0});
   return out;
 }
 
@@ -232,7 +234,8 @@ void settle_rivals(const LawSetting& setting, LawSearch& search) {
 Fit fit_by_own_scales(const LawSetting& setting, const LawAccount& account, const std::vector<int>& aside) {
   const LawSystem& system = *account.system;
   VectorXd tau = account.evidence.tau;
-  tau[kGains] = 0.0;  // the gains are already unknowns of the fit
+  tau[kGains] = 0.0;  // the gains are already unknowns of the fit, and so are elements with their stated scatter
+  if (tau[kElements] > 0.0) tau[kElements] = std::sqrt(std::max(tau[kElements] * tau[kElements] - 1.0, 0.0));
   const Index n = system.residual.size();
   MatrixXd share = covariance_at(MatrixXd::Zero(n, n), system.classes, tau);
   for (const int row : aside) share(row, row) += kAside * kAside;

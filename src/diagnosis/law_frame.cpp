@@ -84,9 +84,12 @@ FitSystem law_system(const Inference& plain, const Fit& fit, const std::vector<C
   Index asked = 0;
   for (std::size_t c = fit.causes.size() - tested; c < fit.causes.size(); ++c) asked += fit.causes[c].a.size();
   const auto n = static_cast<Index>(map.nuisances().size());
-  std::vector<int> known, gains;
-  for (Index k = 0; k < n; ++k)
-    (map.nuisances()[static_cast<std::size_t>(k)].kind == Nuisance::Kind::gain ? gains : known).push_back(static_cast<int>(k));
+  std::vector<int> known, gains, elements;
+  for (Index k = 0; k < n; ++k) {
+    const Nuisance::Kind kind = map.nuisances()[static_cast<std::size_t>(k)].kind;
+    const bool is_of_elements = kind == Nuisance::Kind::place && !contrasts.empty();
+    (kind == Nuisance::Kind::gain ? gains : is_of_elements ? elements : known).push_back(static_cast<int>(k));
+  }
   for (Index k = n; k < j.cols() - asked; ++k) known.push_back(static_cast<int>(k));
   FitSystem out;
   out.modes = map.form_modes(fit.base, fit.causes);
@@ -112,6 +115,7 @@ FitSystem law_system(const Inference& plain, const Fit& fit, const std::vector<C
   for (const ErrorColumns& c : out.classes)
     if (!c.empty()) lasting += c.covariance;
   out.classes.push_back(ErrorColumns::of_columns(std::move(gain)));
+  out.classes.push_back(ErrorColumns::of_columns(j(Eigen::all, elements)));
   for (const Contrast& contrast : contrasts) out.classes.push_back(along(contrast, map.features(), rows, lasting));
   VectorXd x = fit.map.x;
   x.tail(asked).setZero();

@@ -10,7 +10,7 @@
 namespace twindeck::diagnosis {
 
 /// Classes of errors, in the order of a LawSystem. One class for each contrast follows.
-enum LawClass : int { kFrequencies, kShapes, kKinks, kGains, kFirstContrast };
+enum LawClass : int { kFrequencies, kShapes, kKinks, kGains, kElements, kFirstContrast };
 
 constexpr double kUnitOfClasses = 0.01;  ///< [-] for a scale of 1: about the error of a carefully fitted model
 
@@ -22,10 +22,12 @@ struct FitSystem : LawSystem {
 
 /// Residual y - g + J x and classes of the training rows at a fit. Units of the classes: 1 % of each model mode's frequency; a
 /// random symmetric stiffness of 1 % in the model's modes; 0.25 % of a shape's norm at each mode and channel; 1 % of each
-/// channel's gain. The class of a contrast has the columns of frequencies, shapes and kinks together, weighted by the contrast.
-/// Sigma_0 holds the errors of identification, free scales of shapes, parameters and element scatter with their priors,
-/// rotations of close modes, and accepted causes. The coordinates of the last `tested` causes of the fit become the signatures
-/// (per unit of their coordinates) and leave the residual. A contrast whose weights are all zero has no columns.
+/// channel's gain; the stated scatter of elements. The class of a contrast has the columns of frequencies, shapes and kinks
+/// together, weighted by the contrast. Sigma_0 holds the errors of identification, free scales of shapes, parameters with their
+/// priors, rotations of close modes, and accepted causes. Without contrasts it holds the element scatter too: a wider scatter
+/// of elements and a cause in an element then say the same, and only the stated scatter decides between them. The coordinates
+/// of the last `tested` causes of the fit become the signatures (per unit of their coordinates) and leave the residual. A
+/// contrast whose weights are all zero has no columns.
 /// @param plain  with the covariance of identification alone
 [[nodiscard]] FitSystem law_system(const Inference& plain, const Fit& fit, const std::vector<Contrast>& contrasts,
                                    std::size_t tested = 0);

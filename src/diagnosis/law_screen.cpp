@@ -158,7 +158,10 @@ class Screen {
   [[nodiscard]] double prior_of(const ScreenPoint& point, double effect) const {
     double sum = 0.0;
     for (Index c = 0; c < point.tau.size(); ++c)
-      if (point.tau[c] > 0.0) sum += log_half_t(std::log(point.tau[c]), c >= kFirstContrast ? left_scale(effect) : 1.0);
+      if (point.tau[c] > 0.0) {
+        const ActiveClass active{static_cast<int>(c), c >= kFirstContrast ? left_scale(effect) : 1.0};
+        sum += prior_of_scale(active, std::log(point.tau[c])).log_density;
+      }
     return sum;
   }
 

@@ -11,7 +11,7 @@ import unittest
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent))
 import verdict_numbers  # noqa: E402
 
-NUMBERS, RULES = 41, 7
+NUMBERS, RULES = 42, 7
 
 
 class VerdictNumbers(unittest.TestCase):

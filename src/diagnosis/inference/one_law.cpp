@@ -32,9 +32,15 @@ double log_of_sum(const VectorXd& v, VectorXd& weight) {
 
 }  // namespace
 
-double log_half_t(double log_tau, double scale) {
-  const double q = std::exp(2.0 * (log_tau - std::log(scale))) / 3.0;
-  return std::log(4.0 / (std::numbers::pi * std::sqrt(3.0) * scale)) + log_tau - 2.0 * std::log1p(q);
+ScalePrior prior_of_scale(const ActiveClass& active, double log_tau) {
+  const double z = log_tau - std::log(active.scale), spread = active.spread;
+  if (spread > 0.0) {
+    const double log_norm = 0.5 * std::log(2.0 * std::numbers::pi) + std::log(spread);
+    return {-0.5 * z * z / (spread * spread) - log_norm, -z / (spread * spread), 1.0 / (spread * spread)};
+  }
+  const double q = std::exp(2.0 * z) / 3.0;
+  return {std::log(4.0 / (std::numbers::pi * std::sqrt(3.0) * active.scale)) + log_tau - 2.0 * std::log1p(q),
+          1.0 - 4.0 * q / (1.0 + q), 8.0 * q / ((1.0 + q) * (1.0 + q))};
 }
 
 double log_width(const MatrixXd& precision, const VectorXd& range) {
@@ -120,7 +126,7 @@ OneLaw::Look OneLaw::look(const LawHypothesis& hypothesis, const VectorXd& log_t
   for (std::size_t k = 0; k < hypothesis.active.size(); ++k) {
     const double t = log_tau[static_cast<Index>(k)];
     out.tau[hypothesis.active[k].index] = std::exp(t);
-    prior += log_half_t(t, hypothesis.active[k].scale);
+    prior += prior_of_scale(hypothesis.active[k], t).log_density;
   }
   out.point = at(out.tau);
   if (!out.point.exists) return out;
@@ -151,11 +157,11 @@ void OneLaw::slope_of(const LawHypothesis& hypothesis, Look& look) const {
   for (Index k = 0; k < count; ++k) {
     const ActiveClass& active = hypothesis.active[static_cast<std::size_t>(k)];
     const MatrixXd& square = coordinates_.classes()[static_cast<std::size_t>(active.index)].covariance;
-    const double tau = look.tau[active.index], q = tau * tau / (3.0 * active.scale * active.scale);
+    const double tau = look.tau[active.index];
     MatrixXd moved = linalg::product(square, alpha);
     const VectorXd power = moved.cwiseProduct(alpha).colwise().sum();
-    look.gradient[k] =
-        tau * tau * (power.dot(look.weight) - square.cwiseProduct(look.inverse).sum()) + 1.0 - 4.0 * q / (1.0 + q);
+    look.gradient[k] = tau * tau * (power.dot(look.weight) - square.cwiseProduct(look.inverse).sum()) +
+                       prior_of_scale(active, look.log_tau[k]).slope;
     moved *= look.weight.cwiseSqrt().asDiagonal();
     along.push_back(linalg::lower_solve(look.point.lower, std::move(moved)));
   }
@@ -179,13 +185,14 @@ MatrixXd OneLaw::with_prior(const LawHypothesis& hypothesis, const Look& look,
   MatrixXd out(count, count);
   for (std::size_t k = 0; k < count; ++k) {
     const ActiveClass& active = hypothesis.active[k];
-    const double tau = look.tau[active.index], q = tau * tau / (3.0 * active.scale * active.scale);
+    const double tau = look.tau[active.index];
     for (std::size_t l = 0; l <= k; ++l) {
       const double other = look.tau[hypothesis.active[l].index];
       const auto i = static_cast<Index>(k), j = static_cast<Index>(l);
       out(i, j) = out(j, i) = 2.0 * tau * tau * other * other * information(k, l);
     }
-    out(static_cast<Index>(k), static_cast<Index>(k)) += 8.0 * q / ((1.0 + q) * (1.0 + q));
+    const auto own = static_cast<Index>(k);
+    out(own, own) += prior_of_scale(active, look.log_tau[own]).curvature;
   }
   return out;
 }

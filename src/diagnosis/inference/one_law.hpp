@@ -39,8 +39,9 @@ struct LawSystem {
 
 /// A class that is active under a hypothesis, and the scale of its half-t law.
 struct ActiveClass {
-  int index = 0;  ///< position among the classes
-  double scale = 1.0;
+  int index = 0;        ///< position among the classes
+  double scale = 1.0;   ///< of a half-t law of three degrees of freedom; with a spread the median of a log-normal law
+  double spread = 0.0;  ///< deviation of ln tau; 0: half-t
 };
 
 /// Hypothesis on the rows of a system: effects at the magnitudes of a grid, or effects linear in k magnitudes about one point.
@@ -63,19 +64,26 @@ struct LawEvidence {
   bool converged = false;
 };
 
-/// ln p(ln tau) of a half-t law of three degrees of freedom.
-[[nodiscard]] double log_half_t(double log_tau, double scale);
+/// Prior of a scale in ln tau.
+struct ScalePrior {
+  double log_density = 0.0;
+  double slope = 0.0;      ///< of the log density
+  double curvature = 0.0;  ///< with the sign changed; of a half-t law the expected one
+};
+/// Half-t: ln p = ln(4 / (pi sqrt(3) s)) + ln tau - 2 ln(1 + q), q = tau² / (3 s²), slope 1 - 4 q / (1 + q), curvature
+/// 8 q / (1 + q)².
+[[nodiscard]] ScalePrior prior_of_scale(const ActiveClass& active, double log_tau);
 
 /// ln of posterior over prior width of k unknowns with a uniform prior of given ranges, never a gain.
 /// @param precision  in the likelihood (k × k)
 [[nodiscard]] double log_width(const Eigen::MatrixXd& precision, const Eigen::VectorXd& range);
 
-/// The law of a system. Each hypothesis' scales are found by scoring in ln tau: with alpha = Sigma^-1 e,
-/// q_c = tau_c² / (3 s_c²)
-///   gradient  tau_c² (alpha' P_c alpha - tr Sigma^-1 P_c) + 1 - 4 q_c / (1 + q_c),
-///   steps     H_cd = 2 tau_c² tau_d² alpha' P_c Sigma^-1 P_d alpha + delta_cd 8 q_c / (1 + q_c)²,
-///   volume    H_cd = 2 tau_c² tau_d² tr Sigma^-1 P_c Sigma^-1 P_d + delta_cd 8 q_c / (1 + q_c)² at the mode. The trace is the
-/// sum of squares of D_c' Sigma^-1 D_d.
+/// The law of a system. Each hypothesis' scales are found by scoring in ln tau: with alpha = Sigma^-1 e and the prior's slope
+/// g_c and curvature k_c
+///   gradient  tau_c² (alpha' P_c alpha - tr Sigma^-1 P_c) + g_c,
+///   steps     H_cd = 2 tau_c² tau_d² alpha' P_c Sigma^-1 P_d alpha + delta_cd k_c,
+///   volume    H_cd = 2 tau_c² tau_d² tr Sigma^-1 P_c Sigma^-1 P_d + delta_cd k_c at the mode. The trace is the sum of squares
+/// of D_c' Sigma^-1 D_d.
 /// References: Harville (1977), J. Am. Stat. Assoc. 72, 320-338 (scoring of variance components); Gilmour, Thompson and Cullis
 /// (1995), Biometrics 51, 1440-1450 (steps by the average information).
 class OneLaw {

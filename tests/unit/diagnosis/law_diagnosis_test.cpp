@@ -180,6 +180,20 @@ TEST(LawFrame, AChangeThatTurnsIsAsNearAsOneThatDoesNot) {
   EXPECT_NEAR(covariance(1, 2), covariance(1, 1), 1e-9);
 }
 
+// In one condition the stated scatter of elements is known beforehand; where a contrast divides them it is a class.
+TEST(LawSystem, ElementsAreAClassWhereConditionsDiffer) {
+  const Chain chain({.masses = 6, .modes = 3});
+  const Examined e = examine(chain, no_row_held_out(chain.measure(chain.as_modelled())), catalogue({"gain"}));
+  const diagnosis::Fit fit = e.inference->fit({}, {});
+  const auto alone = diagnosis::law_system(*e.inference, fit, {});
+  const auto differing = diagnosis::law_system(*e.inference, fit, {{"people", Eigen::VectorXd::Ones(1)}});
+  EXPECT_TRUE(alone.classes.at(diagnosis::kElements).empty());
+  ASSERT_FALSE(differing.classes.at(diagnosis::kElements).empty());
+  const Eigen::MatrixXd together = differing.sigma + differing.classes.at(diagnosis::kElements).covariance;
+  EXPECT_LT((together - alone.sigma).norm(), 1e-9 * alone.sigma.norm());
+  EXPECT_GT((differing.sigma - alone.sigma).norm(), 1e-6 * alone.sigma.norm());
+}
+
 TEST(DiagnoseByLaw, SaysNoneOfDataOfTheModelItself) {
   const Chain chain({.masses = 10});
   for (unsigned i = 0; i < 6; ++i) {

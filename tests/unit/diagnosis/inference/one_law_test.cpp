@@ -58,11 +58,28 @@ double log_of_the_sum(const std::vector<double>& v) {
   return top + std::log(sum);
 }
 
-TEST(OneLaw, HalfTLawHasProbabilityOne) {
-  double sum = 0.0;
-  constexpr double step = 0.01;
-  for (double t = -25.0; t < 25.0; t += step) sum += step * std::exp(diagnosis::log_half_t(t, 0.3));
-  EXPECT_NEAR(sum, 1.0, 1e-6);  // the tail beyond e^25 is e^-75 and below e^-25 as small as e^-24
+TEST(OneLaw, PriorsOfScalesHaveProbabilityOne) {
+  for (const double spread : {0.0, 0.7}) {
+    double sum = 0.0;
+    constexpr double step = 0.01;
+    for (double t = -25.0; t < 25.0; t += step)
+      sum += step * std::exp(diagnosis::prior_of_scale({0, 0.3, spread}, t).log_density);
+    EXPECT_NEAR(sum, 1.0, 1e-6);  // the tail beyond e^25 is e^-75 and below e^-25 as small as e^-24
+  }
+}
+
+// Central differences. The half-t law has the expected curvature, which is not that of the log density.
+TEST(OneLaw, PriorsOfScalesHaveTheirSlope) {
+  constexpr double h = 1e-4;
+  for (const double spread : {0.0, 0.7})
+    for (const double t : {-3.0, -1.0, 0.5, 2.0}) {
+      const diagnosis::ActiveClass active{0, 0.3, spread};
+      const auto at = [&](double x) { return diagnosis::prior_of_scale(active, x); };
+      EXPECT_NEAR(at(t).slope, (at(t + h).log_density - at(t - h).log_density) / (2.0 * h), 1e-6);
+      if (spread == 0.0) continue;
+      EXPECT_NEAR(at(t).curvature, -(at(t + h).slope - at(t - h).slope) / (2.0 * h), 1e-6);
+    }
+  EXPECT_NEAR(diagnosis::prior_of_scale({0, 0.3, 0.7}, std::log(0.3)).slope, 0.0, 1e-12);
 }
 
 TEST(OneLaw, DensityIsThatOfTheDenseCovariance) {
@@ -73,7 +90,8 @@ TEST(OneLaw, DensityIsThatOfTheDenseCovariance) {
   hypothesis.log_weight = VectorXd::Constant(2, std::log(0.5));
   const double expected = log_of_the_sum({std::log(0.5) + rows.dense(hypothesis.left.col(0), 0.4, 2.0),
                                           std::log(0.5) + rows.dense(hypothesis.left.col(1), 0.4, 2.0)}) +
-                          diagnosis::log_half_t(std::log(0.4), 1.0) + diagnosis::log_half_t(std::log(2.0), 1.0);
+                          diagnosis::prior_of_scale({}, std::log(0.4)).log_density +
+                          diagnosis::prior_of_scale({}, std::log(2.0)).log_density;
   EXPECT_NEAR(law.log_posterior(hypothesis, Eigen::Vector2d(0.4, 2.0)), expected, 1e-8 * std::abs(expected));
 }
 
@@ -131,7 +149,8 @@ TEST(OneLaw, LinearMagnitudesAreIntegratedBetweenTheirBounds) {
     const double a = -1.0 + 4.0 * (k + 0.5) / count;
     terms.push_back(rows.dense(rows.system.residual - a * rows.cause, found.tau[0], found.tau[1]) - std::log(count));
   }
-  const double prior = diagnosis::log_half_t(std::log(found.tau[0]), 1.0) + diagnosis::log_half_t(std::log(found.tau[1]), 1.0);
+  const double prior = diagnosis::prior_of_scale({}, std::log(found.tau[0])).log_density +
+                       diagnosis::prior_of_scale({}, std::log(found.tau[1])).log_density;
   // The term 2 pi / range² in the precision is a part in a thousand of it here.
   EXPECT_NEAR(law.log_posterior(linear, found.tau), log_of_the_sum(terms) + prior, 5e-3);
 }
