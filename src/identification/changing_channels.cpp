@@ -23,6 +23,7 @@ constexpr Index kQuarters = 4, kPerQuarter = 5;  // parts of a record, segments 
 constexpr Index kMostLines = 9;                  // of a mode in a segment, about its peak
 constexpr double kGainDeviations = 10.0;         // as for a lag of the whole record
 constexpr double kLeastChange = 0.1;             // [-] of the gain; a smaller change bends a shape by less than a MAC of 0.99
+constexpr double kTurned = 0.9;                  // cosine of half a turn, less what noise leaves
 constexpr double kLeastSize = 3.0;               // deviations of a component that has a ratio
 
 /// Part of each channel in each mode (n_channels × n_modes), and its relative variance.
@@ -121,7 +122,7 @@ std::optional<Difference> difference(const Parts& before, const Parts& after, co
   out.log_gain.value = sum / weights;
   for (std::size_t k = 0; k < phases.size(); ++k) squares += phases[k].weight * std::pow(log_ratio[k] - out.log_gain.value, 2);
   out.log_gain.deviation = std::sqrt(std::max(1.0, squares / static_cast<double>(phases.size() - 1)) / weights);
-  out.reversed = cosines < 0.0;
+  out.reversed = cosines < -kTurned * weights;
   out.size = change / weights;
   return out;
 }
