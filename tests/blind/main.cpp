@@ -1,7 +1,7 @@
 /// blind_trials N [first seed]: runs sealed cases, scores them, prints the table with 95 % intervals. From 400 trials on the
 /// targets are judged: exit code 1 when an interval lies wholly on the wrong side of one. Fewer trials are held against the
-/// method's own rates: exit code 1 for what these give once in a thousand runs. 0 otherwise. A signal, or the seconds of
-/// TWINDECK_BLIND_SECONDS, ends the run with the table of what was done. blind_trials --nulls N: calibration of the residual
+/// method's own rates: exit code 1 for what these give once in a thousand runs. 0 otherwise. A signal ends
+/// the run with the table of what was done. blind_trials --nulls N: calibration of the residual
 /// test. blind_trials --count N: what N trials hide, by family, without a diagnosis. blind_trials --explain SEED …: the
 /// evidence of single cases. blind_trials --coverage N SEED …: how often intervals hold the size when the cause is given, each
 /// case in N campaigns.
@@ -9,7 +9,6 @@
 
 #include <algorithm>
 #include <array>
-#include <chrono>
 #include <cmath>
 #include <csignal>
 #include <cstdlib>
@@ -46,16 +45,15 @@ std::string line_of(std::uint64_t seed, const Score& s) {
       s.found.empty() ? "nothing" : s.found);
 }
 
-/// Runs `work(i)` for i < count on all threads, results printed in order as they come; stops early at a signal or when
-/// `seconds` have passed, and returns what was done without a gap.
-std::vector<Score> run_all(int count, double seconds, const std::function<Score(int)>& work,
+/// Runs `work(i)` for i < count on all threads, results printed in order as they come; stops early at a signal, and
+/// returns what was done without a gap.
+std::vector<Score> run_all(int count, const std::function<Score(int)>& work,
                            const std::function<std::string(int, const Score&)>& line) {
   std::vector<std::optional<Score>> done(static_cast<std::size_t>(count));
   std::size_t printed = 0;
-  const auto begin = std::chrono::steady_clock::now();
   std::mutex printing;
   twindeck::parallel_for(count, [&](int i) {
-    if (stopped || std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count() > seconds) return;
+    if (stopped) return;
     Score score = work(i);
     const std::scoped_lock lock(printing);
     done[static_cast<std::size_t>(i)] = std::move(score);
@@ -100,7 +98,7 @@ int null_calibration(const twindeck::blind::Bench& bench, int count, std::uint64
   fmt::print("blocks of rows at 5 %: rejects {}/{} nulls = {:.1f} % [{:.1f}, {:.1f}], target at most 5 %  {}\n", rejected,
              count, 100.0 * rejected / count, 100.0 * least, 100.0 * most, least <= 0.05 ? "held" : "MISSED");
   const auto scores = run_all(
-      count, 1e9,
+      count,
       [&](int i) {
         return twindeck::blind::run_case(bench,
                                          twindeck::blind::make_case(bench, first + static_cast<std::uint64_t>(i), 1.3, true));
@@ -249,15 +247,14 @@ void print_errors_of_sizes(const std::vector<Score>& scores) {
 /// `count` trials from seed `first` on: run, scored and judged. @return exit code
 int score_trials(const twindeck::blind::Bench& bench, const std::vector<std::string>& catalogue, int count,
                  std::uint64_t first) {
-  const char* budget = std::getenv("TWINDECK_BLIND_SECONDS");
   const auto run = [&](std::uint64_t seed) {
     return twindeck::blind::run_case(bench, twindeck::blind::make_case(bench, seed));
   };
   const auto scores = run_all(
-      count, budget ? std::atof(budget) : 1e9, [&](int i) { return run(first + static_cast<std::uint64_t>(i)); },
+      count, [&](int i) { return run(first + static_cast<std::uint64_t>(i)); },
       [&](int i, const Score& s) { return line_of(first + static_cast<std::uint64_t>(i), s); });
   if (static_cast<int>(scores.size()) < count)
-    fmt::print("{} of {} trials ran in the time given: the first ones in order, none left out\n", scores.size(), count);
+    fmt::print("{} of {} trials ran: the first ones in order, none left out\n", scores.size(), count);
   const bool shared_out = print_families(scores, catalogue);
   // Fewer trials settle no target: of 19 effects the family of 16 is named once in six runs of a method that names 93 %.
   const auto judge = scores.size() < 400 ? twindeck::blind::Judge::own_rates : twindeck::blind::Judge::targets;
