@@ -19,12 +19,13 @@ using Eigen::MatrixXcd;
 using Eigen::MatrixXd;
 using std::numbers::pi;
 
-constexpr Index kQuarters = 4, kPerQuarter = 5;  // parts of a record, segments in each
-constexpr Index kMostLines = 9;                  // of a mode in a segment, about its peak
-constexpr double kGainDeviations = 10.0;         // as for a lag of the whole record
-constexpr double kLeastChange = 0.1;             // [-] of the gain; a smaller change bends a shape by less than a MAC of 0.99
-constexpr double kTurned = 0.9;                  // cosine of half a turn, less what noise leaves
-constexpr double kLeastSize = 3.0;               // deviations of a component that has a ratio
+constexpr Index kQuarters = 4, kPerQuarter = 5;     // parts of a record, segments in each
+constexpr Index kLongestSegment = Index{1} << 16U;  // [samples] of a segment, whose kernel then takes 100 MB for ten modes
+constexpr Index kMostLines = 9;                     // of a mode in a segment, about its peak
+constexpr double kGainDeviations = 10.0;            // as for a lag of the whole record
+constexpr double kLeastChange = 0.1;  // [-] of the gain; a smaller one leaves a shape of two channels a MAC of 0.997
+constexpr double kTurned = 0.9;       // cosine of half a turn, less what noise leaves
+constexpr double kLeastSize = 3.0;    // deviations of a component that has a ratio
 
 /// Part of each channel in each mode (n_channels × n_modes), and its relative variance.
 struct Parts {
@@ -48,7 +49,7 @@ struct Lines {
 };
 
 Lines lines_in(const Eigen::Ref<const MatrixXd>& quarter, double rate_Hz, const std::vector<Cluster>& modes) {
-  const Index n = quarter.rows() / kPerQuarter;
+  const Index apart = quarter.rows() / kPerQuarter, n = std::min(apart, kLongestSegment);
   Lines out{{0}, {}};
   std::vector<double> lines;
   for (const Cluster& mode : modes) {
@@ -61,7 +62,7 @@ Lines lines_in(const Eigen::Ref<const MatrixXd>& quarter, double rate_Hz, const 
     for (Index k = 0; k < kernel.rows(); ++k)
       kernel(k, t) = std::polar(window, -lines[static_cast<std::size_t>(k)] * static_cast<double>(t));
   }
-  for (Index s = 0; s < kPerQuarter; ++s) out.spectra.push_back(kernel * quarter.middleRows(s * n, n));
+  for (Index s = 0; s < kPerQuarter; ++s) out.spectra.push_back(kernel * quarter.middleRows(s * apart, n));
   return out;
 }
 
@@ -83,14 +84,9 @@ Parts parts_of(const Lines& lines, const std::vector<Cluster>& modes, const Eige
   return out;
 }
 
-/// Weighted mean over the modes, with the deviation that their scatter gives.
-struct Change {
-  double value = 0.0, deviation = 0.0;
-};
-
 /// How a channel differs between two quarters.
 struct Difference {
-  Change log_gain;
+  double log_gain = 0.0, deviation = 0.0;  ///< weighted mean over the modes; deviation that their scatter gives
   bool reversed = false;
   Lag lag;
   double size = 0.0;  ///< mean square of the relative change
@@ -119,9 +115,9 @@ std::optional<Difference> difference(const Parts& before, const Parts& after, co
     sum += phases[k].weight * log_ratio[k];
     cosines += phases[k].weight * std::cos(phases[k].angle_rad + phases[k].omega_rad_s * lag->seconds);
   }
-  out.log_gain.value = sum / weights;
-  for (std::size_t k = 0; k < phases.size(); ++k) squares += phases[k].weight * std::pow(log_ratio[k] - out.log_gain.value, 2);
-  out.log_gain.deviation = std::sqrt(std::max(1.0, squares / static_cast<double>(phases.size() - 1)) / weights);
+  out.log_gain = sum / weights;
+  for (std::size_t k = 0; k < phases.size(); ++k) squares += phases[k].weight * std::pow(log_ratio[k] - out.log_gain, 2);
+  out.deviation = std::sqrt(std::max(1.0, squares / static_cast<double>(phases.size() - 1)) / weights);
   out.reversed = cosines < -kTurned * weights;
   out.size = change / weights;
   return out;
@@ -129,10 +125,9 @@ std::optional<Difference> difference(const Parts& before, const Parts& after, co
 
 /// What changes, in words; empty if nothing does.
 std::string in_words(const Difference& d, double highest_Hz, double seconds) {
-  std::vector<std::string> out;
   if (d.reversed) return "is reversed";
-  if (std::abs(d.log_gain.value) > std::max(kGainDeviations * d.log_gain.deviation, kLeastChange))
-    return fmt::format("has {:.3g} times its gain", std::exp(d.log_gain.value));
+  if (std::abs(d.log_gain) > std::max(kGainDeviations * d.deviation, kLeastChange))
+    return fmt::format("has {:.3g} times its gain", std::exp(d.log_gain));
   if (d.lag.matters(highest_Hz))
     return fmt::format("is {:.3g} ms {} (a clock {:.2g} % {}, if it goes on)", 1e3 * std::abs(d.lag.seconds),
                        d.lag.seconds > 0.0 ? "late" : "early", 100.0 * std::abs(d.lag.seconds) / seconds,
