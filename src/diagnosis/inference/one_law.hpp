@@ -68,7 +68,7 @@ struct LawEvidence {
 struct ScalePrior {
   double log_density = 0.0;
   double slope = 0.0;      ///< of the log density
-  double curvature = 0.0;  ///< with the sign changed; of a half-t law the expected one
+  double curvature = 0.0;  ///< minus the second derivative
 };
 /// Half-t: ln p = ln(4 / (pi sqrt(3) s)) + ln tau - 2 ln(1 + q), q = tau² / (3 s²), slope 1 - 4 q / (1 + q), curvature
 /// 8 q / (1 + q)².
