@@ -24,8 +24,8 @@ constexpr double kKeptMagnitudes = 10.0;  // nats below the best; smaller terms 
 constexpr double kOneFit = 0.01;          // prior deviations; nearer fits count as equal
 constexpr double kStands = 1.0;           // least gain in nats of a further fit
 
-/// Classes of a set of causes. The effect sets the scale of the remaining change in each of its contrasts. Where they
-/// are several, how the effect is divided is unknown, and nothing may remain in one of them.
+/// Classes of a set of causes. The effect sets the scale of the remaining change in each of its contrasts. With several
+/// contrasts, how the effect is divided is unknown, and nothing may remain in one of them.
 std::vector<ActiveClass> classes_of(const LawSearch& search, const LawSystem& system, const LawAccount& account,
                                     double effect) {
   std::vector<ActiveClass> out = lasting_classes(system);

@@ -8,7 +8,7 @@ namespace twindeck::diagnosis {
 /// Scale of the change that a cause leaves unexplained in its contrast: this part of its effect, and at least of one unit of
 /// the class.
 constexpr double kLeft = 0.1;
-/// The scale is that within this factor: no model describes a change exactly.
+/// The scale is known within this factor: no model describes a change exactly.
 constexpr double kLeftWithin = 2.0;
 
 /// Scale of the unexplained change. @param effect  RMS change of ln(frequency) by the cause

@@ -179,8 +179,8 @@ std::vector<std::string> changes_within_records(const Conditioned& conditioned, 
       const std::string what = d ? in_words(*d, highest_Hz, from_s) : "";
       const std::string& name = conditioned.channels[static_cast<std::size_t>(changed.channel)].name;
       out.push_back(fmt::format(
-          "setup {}: {}: from {:.4g} s on {} {} beside its first quarter and the other channels: its shapes are wrong; cut the "
-          "record before the change, or leave the channel out (--set 'exclude=[\"{}\"]')",
+          "setup {}: {}: from {:.4g} s on {} {}, judged by the other channels against the record's first quarter: its shapes "
+          "are wrong; cut the record before the change, or leave the channel out (--set 'exclude=[\"{}\"]')",
           conditioned.setup, conditioned.files[r], from_s, name, what.empty() ? "changes" : what, name));
     }
   }

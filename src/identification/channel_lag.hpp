@@ -14,6 +14,7 @@ struct Phase {
   double weight = 0.0;  ///< 1/variance of the angle
 };
 
+/// Lag of a channel's clock.
 struct Lag {
   double seconds = 0.0, deviation_s = 0.0;
   /// Ten deviations or more (dampers alone cause up to six), and ten degrees or more at the highest mode.
