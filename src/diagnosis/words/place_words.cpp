@@ -182,7 +182,7 @@ PlaceInWords PlaceWords::at(const std::string& location) const {
   const std::string kind = location.substr(0, colon), names = location.substr(colon + 1);
   if (kind == "node") return node(names);
   if (kind == "nodes") return nodes(split(names));
-  if (kind == "element") return zone(location, names);
+  if (kind == "element" || kind == "zone") return zone(location, names);
   if (kind == "support") return support(names);
   if (kind == "stay") return stay(names);
   if (kind == "damper" || kind == "dampers") return dampers(names);
@@ -226,7 +226,9 @@ PlaceInWords PlaceWords::zone(const std::string& location, const std::string& na
       if (place.id != location) continue;
       std::map<std::string, int> counts;
       for (const int e : place.elements) ++counts[model_->elements[static_cast<std::size_t>(e)].group];
-      const std::string group = most_frequent(counts), part = group.empty() ? "element " + name : "the " + group;
+      const std::string group = most_frequent(counts);
+      std::string part = group.empty() ? "element " + name : "the " + group;
+      if (location.starts_with("zone:")) part = "the structure";  // a zone holds elements of all groups
       const std::string here = coordinates(place.x_m);
       if (here.empty()) return {part, place.x_m};
       const std::string beside = near(place.x_m);

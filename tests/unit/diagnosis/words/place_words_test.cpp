@@ -111,9 +111,13 @@ TEST(PlaceWords, ZonesDampersSensorsModes) {
   single.id = "element:4";
   single.x_m = Vector3d(17.5, 0.0, 0.0);
   single.elements = {3};
+  diagnosis::Place of_all_groups = zone;
+  of_all_groups.id = "zone:3";
   places.sets["elements"] = {zone, single};
+  places.sets["zones"] = {of_all_groups};
   const PlaceWords words(&model, {}, {sensor("A1", "", Vector3d(5.0, 0.0, 0.0)), sensor("A2", "102")}, places);
   EXPECT_EQ(words.at("element:3").words, "the deck round x = 12.5 m, 2.5 m from the sensor A2");
+  EXPECT_EQ(words.at("zone:3").words, "the structure round x = 12.5 m, 2.5 m from the sensor A2");
   EXPECT_EQ(words.at("element:4").words, "the deck at x = 17.5 m (element 4, 2.5 m from the support pier_W)");
   EXPECT_EQ(words.at("damper:D1").words, "the damper D1 at x = 30 m");
   EXPECT_EQ(words.at("channel:A1").words, "the sensor A1 at x = 5 m");
